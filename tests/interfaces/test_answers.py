@@ -10,8 +10,7 @@ import pytest
 from conversations import LOSS, SCENE, SEED, Scripted, asks, means
 
 import wirelessagent as wa
-from wirelessagent.agent.dialogue import restated
-from wirelessagent.agent.turn import Turn
+from wirelessagent.agent.turn import Turn, restated
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.request import Request
 from wirelessagent.model.units import human

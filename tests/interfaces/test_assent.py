@@ -10,7 +10,7 @@ from conversations import LOSS, SCENE, SEED, asks, means
 import wirelessagent as wa
 from wirelessagent.agent.session import Session
 from wirelessagent.agent.turn import Turn
-from wirelessagent.language.conversation.assent import assent, is_assent
+from wirelessagent.language.conversation.answers import assent, is_assent
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser

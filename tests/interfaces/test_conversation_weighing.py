@@ -13,11 +13,10 @@ from wirelessagent.language.acts import Limit, Named, Suppose
 from wirelessagent.language.conversation import read_by_rules, weighing
 from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.conversation.changes import changes_of
-from wirelessagent.language.conversation.heard import Read
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.possible import Possible
-from wirelessagent.language.conversation.signs import SUPPOSED, Signs
-from wirelessagent.language.conversation.talk_model import meanings, weigh
+from wirelessagent.language.conversation.signs import SUPPOSED, Read, Signs
+from wirelessagent.language.conversation.weighing import meanings, weigh
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.request import Request

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from wirelessagent.language.corrected import without_corrected
+from wirelessagent.language.mentions import without_corrected
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.sentence import Sentence, own_words
 
@@ -22,10 +22,20 @@ def read(text: str) -> dict[str, Any]:
     [
         ("user 6 at least 1, no, 2 Mbit/s", "user 6 at least 2 Mbit/s"),
         ("power at most 12, make that 10 W", "power at most 10 W"),
-        ("höchstens 8, Quatsch, höchstens 6 Watt", "höchstens höchstens 6 Watt"),
+        ("höchstens 8, Quatsch, höchstens 6 Watt", "höchstens 6 Watt"),
         ("al menos 2, no, 3 Mbit/s", "al menos 3 Mbit/s"), ("au moins 1, non, 1,5 Mbit/s", "au moins 1,5 Mbit/s"),
         ("至少1，不对，2 Mbit/s", "至少 2 Mbit/s"), ("for user 3 - sorry, I mean user 5 -", "for user 5 -"),
-        ("Nutzer 5 – äh, falsch, Nutzer 7 – braucht", "Nutzer 7 – braucht"), ("给5号，哦不，给6号", "给 给6号"),
+        ("Nutzer 5 – äh, falsch, Nutzer 7 – braucht", "Nutzer 7 – braucht"), ("给5号，哦不，给6号", "给 6号"),
+        ("user 2 at 1 Mbit/s minimum, make that 1.3,", "user 2 at 1.3 Mbit/s minimum,"),
+        ("promet 1 Mbit/s, pardon, 1,4, au 6", "promet 1,4 Mbit/s, au 6"),
+        ("stay under fifteen no sorry twelve watts", "stay under twelve watts"),
+        ("2 Mbit/s at minimum er no 3 Mbit/s at minimum", "3 Mbit/s at minimum"),
+        ("in blocks of six no hang on in blocks of eight", "in blocks of eight"),
+        ("höchstens drei nee höchstens vier Watt", "höchstens vier Watt"), ("六号啊不对是七号", "七号"),
+        ("每人至少1兆,说错了,2兆", "每人至少 2兆"), ("hmm", "hmm"),
+        ("起码三兆哎不对起码四兆", "起码 四兆"), ("sans l'usager six, euh, six", "sans l'usager six, six"),
+        ("user 3 at 2 Mbit/s, no, 5", "user 3 at 2 Mbit/s, no, 5"), ("at 2 Mbit/s, no more", "at 2 Mbit/s, no more"),
+        ("1 Mbit/s at least, no, 3 W at most", "1 Mbit/s at least, no, 3 W at most"),
         ("users 1, 2 and 3, no more than 10 W", "users 1, 2 and 3, no more than 10 W"),
         ("drop 1, 2 and 3, sorry, cap is 10 W", "drop 1, 2 and 3, sorry, cap is 10 W"),
         ("1 Mbit/s for 3, no, 2 Mbit/s", "1 Mbit/s for 3, no, 2 Mbit/s"),
@@ -41,7 +51,7 @@ def test_what_is_taken_back_is_blanked(said: str, meant: str) -> None:
     left = without_corrected(said)
     assert " ".join(left.split()) == meant
     assert len(left) == len(said)
-    assert all(one in (" ", other) for one, other in zip(left, said, strict=True))
+    assert set(left) <= {*said, " "}
 
 
 @pytest.mark.parametrize(
@@ -70,6 +80,10 @@ def test_a_share_of_the_power_is_a_figure_in_words_too(text: str, expected: dict
         ("users 1 and 2 get 300k, 3 and 4 1M", {"1": 3e5, "2": 3e5, "3": 1e6, "4": 1e6}),
         ("least power, 750 kbit/s for 1, 2 and 6, and twice as much for 8",
          {"1": 7.5e5, "2": 7.5e5, "6": 7.5e5, "8": 1.5e6}),
+        ("user 2 at least 800 kbit/s, user 5 the same, user 6 double", {"2": 8e5, "5": 8e5, "6": 1.6e6}),
+        ("el 2 con 1 Mbit/s, el 4 lo mismo", {"2": 1e6, "4": 1e6}), ("2号至少1兆，5号也一样", {"2": 1e6, "5": 1e6}),
+        ("1,5 Mbit/s mindestens für die 2 und ebenso viel für die 3", {"2": 1.5e6, "3": 1.5e6}),
+        ("le 2 au moins 1 Mbit/s, le 5 pareil", {"2": 1e6, "5": 1e6}),
     ],
 )  # fmt: skip
 def test_lists_have_one_figure_for_each_user(text: str, expected: dict[str, float]) -> None:

@@ -9,13 +9,11 @@ import numpy as np
 import pytest
 
 from wirelessagent.language.constraints import read_constraints
-from wirelessagent.language.figure_roles import LABELS, likely, shipped_roles
+from wirelessagent.language.figure_roles import BUCKETS, LABELS, Token, around, hashed, likely, shipped_roles, tokens_of
 from wirelessagent.language.intent import same_constraints
-from wirelessagent.language.leftovers import loose_numbers, unread
 from wirelessagent.language.offline import recognise
 from wirelessagent.language.quantities import parse_quantities
-from wirelessagent.language.role_features import BUCKETS, Token, around, hashed, tokens_of
-from wirelessagent.language.stated import Reading
+from wirelessagent.language.stated import Reading, loose_numbers, unread
 from wirelessagent.language.text import normalise
 from wirelessagent.language.training import roles as training
 

@@ -14,15 +14,12 @@ import numpy as np
 import pytest
 
 from wirelessagent.language import training
-from wirelessagent.language.base_words import FOLDER as FOLDER_OF_BASE_WORDS
-from wirelessagent.language.base_words import based
 from wirelessagent.language.conversation import read_by_rules as read_as_a_sentence
 from wirelessagent.language.conversation.anchors import Anchored
-from wirelessagent.language.conversation.heard import Read
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.possible import Possible
-from wirelessagent.language.conversation.signs import Signs
-from wirelessagent.language.conversation.talk_model import weigh
+from wirelessagent.language.conversation.signs import Read, Signs
+from wirelessagent.language.conversation.weighing import weigh
 from wirelessagent.language.figure_roles import LABELS
 from wirelessagent.language.intent import COMMANDS, QUESTIONS, checked_constraints, same_constraints
 from wirelessagent.language.offline import OfflineRecogniser
@@ -40,11 +37,21 @@ from wirelessagent.language.sentence_model import (
 from wirelessagent.language.text import hashed
 from wirelessagent.language.training import meant, orders, talk_notation, talks
 from wirelessagent.language.training.__main__ import taught
-from wirelessagent.language.training.compose import LANGUAGES, SURROUNDINGS, Grammar, sentences, slots
-from wirelessagent.language.training.examples import FRAMES, Example, framed, spoken
-from wirelessagent.language.training.marked import marked, unmarked
-from wirelessagent.language.training.variants import NAMED
-from wirelessagent.language.vocabulary import nearest, respelt
+from wirelessagent.language.training.examples import (
+    FRAMES,
+    LANGUAGES,
+    SURROUNDINGS,
+    Example,
+    Grammar,
+    framed,
+    sentences,
+    slots,
+    spoken,
+)
+from wirelessagent.language.training.meant import marked, unmarked
+from wirelessagent.language.training.roles import NAMED
+from wirelessagent.language.vocabulary import FOLDER as FOLDER_OF_BASE_WORDS
+from wirelessagent.language.vocabulary import based, nearest, respelt
 from wirelessagent.model.errors import InputError
 
 FOLDER = Path(training.__file__).parent

@@ -86,7 +86,6 @@ STATED: list[tuple[str, dict[str, Any]]] = [
     ("at least 1 Mbit/s, sorry, 2 Mbit/s each", {"min_rate_bps": 2e6}),
     ("at most 3 Mbit/s each, I mean 2 Mbit/s", {"max_rate_bps": 2e6}),
     ("user 2 gets 1 Mbit/s, sorry, 2 Mbit/s", {"min_rate_bps": {"2": 2e6}}),
-    ("每人至少1兆,说错了,2兆", {"min_rate_bps": 2e6}),
     ("rates between 500k and 2M for each user", {"min_rate_bps": 5e5, "max_rate_bps": 2e6}),
     ("10 W total, 0.2 W per subcarrier", {"max_power_w": 10.0, "subcarrier_max_power_w": 0.2}),
     # reliabilities without a percent sign

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from wirelessagent.language.base_words import language_in_a_talk, language_of, languages_of
 from wirelessagent.language.training.examples import spoken
+from wirelessagent.language.vocabulary import language_in_a_talk, language_of, languages_of
 
 LINES = {
     "en": ["as fast as possible", "go back one step", "no need", "radiate as little as possible", "6 also back in"],

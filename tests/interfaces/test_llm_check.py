@@ -13,9 +13,9 @@ import pytest
 
 from wirelessagent.language.guard import guarded
 from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, LISTS_OF_USERS, Constraint, Intent, IntentKind
-from wirelessagent.language.llm.check import Case
 from wirelessagent.language.llm.client import NoAnswer, Objection
 from wirelessagent.language.llm.prompt import KINDS, Details, FiguredConstraint, Meaning, figures_of, meaning_with
+from wirelessagent.language.llm.reader import Case
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.sentence import Sentence, own_words

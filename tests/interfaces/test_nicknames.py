@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from wirelessagent.language.conversation.nicknames import called, only_called, with_users
+from wirelessagent.language.conversation.line import called, only_called, with_users
 from wirelessagent.operations.chat import ChatRequest
 
 NOTED = {

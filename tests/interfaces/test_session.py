@@ -12,10 +12,9 @@ import pytest
 from conversations import CHINESE, ENGLISH, LOSS, SCENE, SEED, Line, Scripted, asks, means
 
 import wirelessagent as wa
-from wirelessagent.agent.dialogue import restated
 from wirelessagent.agent.posing import pose
 from wirelessagent.agent.session import Session
-from wirelessagent.agent.turn import Turn
+from wirelessagent.agent.turn import Turn, restated
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.intent import CONSTRAINTS, Intent
 from wirelessagent.language.offline import OfflineRecogniser

@@ -14,7 +14,7 @@ from conversations import LOSS, SCENE, SEED, Scripted, asks, means
 import wirelessagent as wa
 from wirelessagent.agent.acting import carry_out, same_allocation
 from wirelessagent.agent.session import Session
-from wirelessagent.agent.site import Site
+from wirelessagent.agent.state import Site
 from wirelessagent.agent.turn import Run, Tools, Turn
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.recogniser import Context, Recogniser

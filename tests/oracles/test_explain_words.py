@@ -18,9 +18,8 @@ from wirelessagent.telling import glossary
 from wirelessagent.telling.catalogue import called, message
 from wirelessagent.telling.explanation import explain
 from wirelessagent.telling.facts.accounts import account
-from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.case import Case, certificate
 from wirelessagent.telling.facts.nearest import nearest
-from wirelessagent.telling.facts.proof import certificate
 from wirelessagent.telling.facts.steps import power_step, rate_step
 
 CELL = wa.Cell(max_power_w=20)

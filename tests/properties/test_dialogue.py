@@ -188,6 +188,9 @@ listless = st.lists(changing, max_size=5).map(lambda acts: [act for act in acts 
 
 
 @example([], _INSTEAD)
+@example(
+    [Serve(whom=Named(("1",)), alone=True), LeaveOut(whom=Named(("1", "2")))], [Serve(whom=Named(("1",)), alone=True)]
+)
 @given(listless, listless)
 def test_acts_between_two_requests_make_one_of_the_other(one: list[Act], other: list[Act]) -> None:
     before, after = (changed({}, acts, radiated_w=3.0) for acts in (one, other))

@@ -339,5 +339,5 @@ def test_killed_under_load_every_answered_turn_is_kept_and_nothing_applied_twice
             since = server.get(f"v1/sessions/{session}")["turns"][last:]
             told = [one["lines"]["changed"] for one in since[:-1]]
             assert since[-1] == turn
-            assert all("what is in effect there is not known" in one for one in told)
+            assert all("what is in effect there is not known" in one for one in told), told
             assert len(told) <= 1

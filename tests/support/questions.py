@@ -7,10 +7,9 @@ from typing import Any
 import wirelessagent as wa
 from wirelessagent.agent.asking import Asked, answered
 from wirelessagent.language.acts import Ask
-from wirelessagent.language.intent import Intent
-from wirelessagent.language.intent_acts import acts_of
+from wirelessagent.language.intent import Intent, acts_of
+from wirelessagent.telling.catalogue import Table
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.told import Table
 
 
 def answer(

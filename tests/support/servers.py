@@ -11,6 +11,7 @@ import signal
 import socket
 import subprocess
 import sys
+import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -89,9 +90,12 @@ class Server:
             os.kill(int(number), signal.SIGKILL)
 
     def kill(self) -> None:
-        """End it without a word, with its workers."""
+        """End it without a word, with its workers; what one is just writing is there then, or never will be."""
         os.killpg(self.process.pid, signal.SIGKILL)
         self.process.wait()
+        ends = ["pgrep", "-g", str(self.process.pid), "-r", "D,R,S"]
+        while subprocess.run(ends, capture_output=True, check=False).returncode == 0:
+            time.sleep(0.01)
 
 
 def mcp_headers(session: str = "") -> dict[str, str]:

@@ -20,7 +20,7 @@ from typing import cast
 import numpy as np
 
 from wirelessagent.acting.base_station import BaseStation
-from wirelessagent.agent.turn import Run, in_use
+from wirelessagent.agent.turn import Run
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError
@@ -28,6 +28,7 @@ from wirelessagent.model.metrics import RATE_TOLERANCE
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.telling.catalogue import message
+from wirelessagent.telling.facts.case import in_use
 from wirelessagent.telling.parts import name_of_figure
 
 TOLERANCE = 0.1
@@ -244,12 +245,8 @@ def _worth(run: Run, outcome: Outcome | None) -> float:
 
 def _keeps(run: Run, good: Run) -> bool:
     """Whether an earlier allocation, as it was read back on the same channel, keeps the constraints of ``run``."""
-    problem, outcome, truth, earlier = (
-        run.decision.problem,
-        good.outcome,
-        run.scene.current_truth,
-        good.scene.current_truth,
-    )
+    problem, outcome = run.decision.problem, good.outcome
+    truth, earlier = run.scene.current_truth, good.scene.current_truth
     if outcome is None or outcome.achieved is None or run.outcome is None or run.outcome.achieved is None:
         return False
     if truth is None or earlier is None or not np.array_equal(truth, earlier):

@@ -8,7 +8,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
@@ -17,14 +17,14 @@ import numpy as np
 
 from wirelessagent.agent.posing import UnknownUserError, able, user_number
 from wirelessagent.agent.state import InsteadError, Replies, Reply, Talk, asked_back
-from wirelessagent.agent.turn import Run, Turn
+from wirelessagent.agent.turn import Run, Turn, unmet
 from wirelessagent.language import acts
 from wirelessagent.language.acts import Act, Ask
 from wirelessagent.language.text import normalise
 from wirelessagent.language.topics import ranked
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.units import human
-from wirelessagent.telling.catalogue import Said, called, lines_of
+from wirelessagent.telling.catalogue import Said, Table, called, lines_of
 from wirelessagent.telling.explanation import Proofs, certificate_line, explain
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.nearest import FewerUsers, MorePower, Nearest, Way, WithoutLimit, nearest
@@ -33,7 +33,6 @@ from wirelessagent.telling.margins import Prices, Remedies, Steps
 from wirelessagent.telling.parts import Teller
 from wirelessagent.telling.report import Report, served_table, user_table
 from wirelessagent.telling.roster import Accounts, Roster
-from wirelessagent.telling.told import Table
 
 Answer = str | tuple[str, tuple[Table, ...]]
 
@@ -82,10 +81,6 @@ class Asked(Teller):
     def everybody(self) -> Table:
         """What each user gets, and how sure that is."""
         return user_table(self.report, self.case.estimate, self.language)
-
-    def explained(self) -> list[str]:
-        """The decision in words."""
-        return explain(self.case.estimate, self.report, language=self.language)
 
 
 def answered(asked: Asked, act: Ask) -> tuple[str, tuple[Table, ...]]:
@@ -147,14 +142,6 @@ def _offer(case: Case, way: Way) -> tuple[Act, ...]:
     return (acts.Limit(kind="min_rate_bps", value=float(promised[0]) * way.factor),)
 
 
-def unmet(turns: Sequence[Turn]) -> Run | None:
-    """What the line before asked for or supposed, where that can't be met; questions why lie between."""
-    why = (acts.AskWhyNot, acts.AskWhy)
-    last = next((turn for turn in reversed(turns) if not any(isinstance(act, why) for act in turn.acts)), None)
-    run = None if last is None else last.run
-    return None if run is None or run.decision.is_usable else run
-
-
 def _is_unmet(asked: Asked, act: Ask) -> bool:
     """Whether nothing was decided that a question could be answered of, so that what can be met instead is told."""
     anyway = isinstance(act, acts.AskWhy | acts.AskGain | acts.AskDuration)
@@ -211,6 +198,12 @@ def _users(asked: Asked, act: acts.AskUsers) -> Answer:
         return asked.by(Roster).overview(), asked.served()
     user, table = asked.user(act.user), asked.everybody()
     return asked.by(Accounts).share(user), (dataclasses.replace(table, rows=(table.rows[user],)),)
+
+
+def _result(asked: Asked, _: acts.AskResult) -> Answer:
+    """The figures that are named, else the decision in words."""
+    figures = figures_asked(asked.text, asked.report, asked.language)
+    return figures or lines_of(explain(asked.case.estimate, asked.report, language=asked.language))
 
 
 def _dearest(asked: Asked, _: acts.AskDearest) -> Answer:
@@ -359,9 +352,7 @@ _ANSWERS: Mapping[type[Ask], Callable[[Asked, Any], Answer]] = {
     acts.AskOwner: lambda asked, act: asked.by(Roster).owner(act.subcarrier),
     acts.AskGain: lambda asked, act: asked.by(Roster).gain(asked.someone(act.user), act.subcarrier),
     acts.AskDearest: _dearest,
-    acts.AskResult: lambda asked, _: (
-        figures_asked(asked.text, asked.report, asked.language) or lines_of(asked.explained())
-    ),
+    acts.AskResult: _result,
     acts.AskLimits: lambda asked, _: asked.by(Prices).limits(),
     acts.AskDuration: lambda asked, _: asked.say("about.no_duration", method=asked.case.decision.method),
 }

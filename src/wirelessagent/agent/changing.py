@@ -3,7 +3,7 @@
 plan → confirm → apply → read back → compare with the promise → revert; see :mod:`wirelessagent.agent.acting`.
 
 The plan that waits for a yes is named before it is applied, and only a plain yes applies it. Whatever a recogniser
-makes of a line, the line itself has to be an assent (:mod:`wirelessagent.language.conversation.assent`), and it has to
+makes of a line, the line itself has to be an assent (:mod:`wirelessagent.language.conversation.answers`), and it has to
 follow a reply that names the plan.
 """
 
@@ -15,12 +15,11 @@ from typing import Any
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent.acting import applied_line, respects, same_allocation
 from wirelessagent.agent.asking import no_such_turn
-from wirelessagent.agent.dialogue import changes_in_words, restated
 from wirelessagent.agent.posing import check_promised
 from wirelessagent.agent.state import InsteadError, Replies, Reply, State, Talk, asked_back
-from wirelessagent.agent.turn import Run, shift_between
-from wirelessagent.language.acts import Act, Apply, AskStatus, Export, Forget, No, Undo, Yes
-from wirelessagent.language.conversation.assent import assent, is_assent, speaks_of_applying
+from wirelessagent.agent.turn import Run, changes_in_words, restated, shift_between
+from wirelessagent.language.acts import Act, Apply, Export, Forget, No, Undo, Yes
+from wirelessagent.language.conversation.answers import assent, is_assent, speaks_of_applying
 from wirelessagent.language.recogniser import Question
 from wirelessagent.language.request import applied
 from wirelessagent.model.units import human
@@ -275,16 +274,6 @@ def asked_again(talk: Talk) -> Reply:
         return Reply(decided=talk.say("plan.nothing_to_confirm"))
     waiting = dataclasses.replace(state, planned=run, question=None)
     return asked_back(talk.say("ask_back.shall_i_apply", request=request), waiting)
-
-
-def naming_the_plan(reply: Reply, talk: Talk, acts: tuple[Act, ...]) -> Reply:
-    """The answer to something else, with the plan that still waits as what it needs; a document stays as it is."""
-    before, after = talk.state, reply.state or talk.state
-    waits = after.planned is not None and after.planned is before.planned and after.question is None
-    whole = any(isinstance(act, Export | AskStatus) for act in acts)
-    if not waits or whole or reply.needs or reply.stage not in ("answered", "nothing"):
-        return reply
-    return dataclasses.replace(reply, needs=talk.say("plan.still_waits", request=talk.plan(after.request)))
 
 
 REPLIES: Replies = {Apply: apply, Yes: confirm, No: reject, Undo: undo, Forget: reset}

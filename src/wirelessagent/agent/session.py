@@ -23,22 +23,19 @@ from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent import asking, changing, posing, supposing
 from wirelessagent.agent.acting import TOLERANCE
 from wirelessagent.agent.posing import RefusedError, UnknownUserError, user_number
-from wirelessagent.agent.site import Decide, Site, decided, station_of
-from wirelessagent.agent.state import InsteadError, Reply, State, Talk, asked_back
-from wirelessagent.agent.turn import Lines, Run, Tools, Turn, shift_between
-from wirelessagent.language.acts import Act, Aim, Apply, Ask, No, Press, Suppose, Undo, Yes
+from wirelessagent.agent.state import Decide, InsteadError, Reply, Site, State, Talk, asked_back, decided, station_of
+from wirelessagent.agent.turn import Lines, Run, Tools, Turn, shift_between, unmet
+from wirelessagent.language.acts import Act, Aim, Apply, Ask, AskStatus, Export, No, Press, Suppose, Undo, Yes
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import called, unanswered, understood, with_users
 from wirelessagent.language.conversation.anchors import Anchored
-from wirelessagent.language.intent import Intent
-from wirelessagent.language.intent_acts import OWN_CHOICE, acts_of
+from wirelessagent.language.intent import OWN_CHOICE, Intent, acts_of
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Missing, Question, Recogniser
 from wirelessagent.language.request import Request, difference, users_in
 from wirelessagent.model.errors import UnclearRequestError, UnsupportedProblemError, WirelessAgentError
 from wirelessagent.model.scene import Loss, Scene
-from wirelessagent.telling.catalogue import message
-from wirelessagent.telling.told import Progress, silent
+from wirelessagent.telling.catalogue import Progress, message, silent
 
 _NOTE = re.compile(r"[(（][^()（）]+[)）]$")
 """What a recogniser that read a line in another one's place says of itself at the end of a reply."""
@@ -164,7 +161,7 @@ class Session:
             read = talk.say("stage.understood", reply=intent.reply, recogniser=reader, sure=sure)
             self._site.tell("understand", read, intent.language)
         try:
-            reply = changing.naming_the_plan(self._reply(talk, context), talk, acts_of(intent))
+            reply = _naming_the_plan(self._reply(talk, context), talk, acts_of(intent))
             self._take(talk, reply)
         except BaseException:  # an interruption too: the base station may have it, or a part of it
             if self._site.telling is not None:
@@ -188,7 +185,7 @@ class Session:
             awaits=state.awaits, question=state.question or Question(),
             supposed_objective=None if supposed is None else supposed.objective,
             supposed={} if supposed is None else supposed.constraints,
-            ways=asking.unmet(self._turns) is not None, offers=len(state.offers),
+            ways=unmet(self._turns) is not None, offers=len(state.offers),
             acts=self._last_acts(), spoken_of=self._spoken_of(names), called=names,
             earlier=tuple(turn.acts for turn in self._turns), past=tuple(state.request for state in self._past),
         )  # fmt: skip
@@ -327,6 +324,16 @@ def _open_question(talk: Talk, context: Context) -> Reply:
         return changing.asked_again(talk)
     question = left if intent.guess is None else Question(guess=intent.guess)
     return asked_back(intent.reply, dataclasses.replace(talk.state, planned=None, question=question))
+
+
+def _naming_the_plan(reply: Reply, talk: Talk, acts: tuple[Act, ...]) -> Reply:
+    """The answer to something else, with the plan that still waits as what it needs; a document stays as it is."""
+    before, after = talk.state, reply.state or talk.state
+    waits = after.planned is not None and after.planned is before.planned and after.question is None
+    whole = any(isinstance(act, Export | AskStatus) for act in acts)
+    if not waits or whole or reply.needs or reply.stage not in ("answered", "nothing"):
+        return reply
+    return dataclasses.replace(reply, needs=talk.say("plan.still_waits", request=talk.plan(after.request)))
 
 
 def ask(

@@ -13,11 +13,9 @@ import numpy as np
 from wirelessagent import plugins
 from wirelessagent.agent.acting import same_allocation
 from wirelessagent.agent.asking import decided_by
-from wirelessagent.agent.dialogue import restated
 from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, RefusedError, user_number
-from wirelessagent.agent.site import Sight
-from wirelessagent.agent.state import Column, Replies, Reply, Talk, asked_back
-from wirelessagent.agent.turn import Run
+from wirelessagent.agent.state import Column, Replies, Reply, Sight, Talk, asked_back
+from wirelessagent.agent.turn import Run, restated
 from wirelessagent.language import acts
 from wirelessagent.language.acts import Act
 from wirelessagent.language.intent import Constraint

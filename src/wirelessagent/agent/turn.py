@@ -1,18 +1,21 @@
-"""One turn of a conversation: what was said, what was understood, what was done, and what was replied."""
+"""One turn of a conversation: what was said, what was understood, what was done, and what was replied.
+
+What is asked for, and what changed of it and of the allocation, are told with figures and units to be checked.
+"""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from wirelessagent.language.acts import Act, Press
-from wirelessagent.language.intent import Intent
-from wirelessagent.language.intent_acts import acts_of
-from wirelessagent.language.request import Diff
+from wirelessagent.language.acts import Act, AskWhy, AskWhyNot, Press
+from wirelessagent.language.intent import Intent, acts_of
+from wirelessagent.language.replies import figure_in_words, limits_in_words
+from wirelessagent.language.request import Diff, Request, constraints_of
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import WirelessAgentError
@@ -23,11 +26,11 @@ from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.scene import Scene
 from wirelessagent.model.shown import Picture, Shown, Summary
 from wirelessagent.model.units import human
-from wirelessagent.telling.catalogue import joined, lines_of, message
+from wirelessagent.telling.catalogue import Table, called, joined, lines_of, message
 from wirelessagent.telling.explanation import certificate_line, explain, summary_line
-from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.case import Case, in_use
+from wirelessagent.telling.parts import goal_words
 from wirelessagent.telling.report import Report, decision_tables, report
-from wirelessagent.telling.told import Table
 
 Stage: TypeAlias = Literal["answered", "asked", "planned", "applied", "reverted", "undone", "nothing"]
 """What a turn came to: answered (a question; nothing was to be applied), asked (a question back), planned (a decision
@@ -124,6 +127,48 @@ class Run(Shown):
         return self.report.columns()
 
 
+def restated(request: Request, language: str = "en") -> str:
+    """What is asked for, in one sentence.
+
+    >>> restated(Request(objective="max_rate", constraints={"max_power_w": 10.0, "leave_out": ("3",)}))
+    'The highest total rate: at most 10 W of radiated power, without user 3.'
+    """
+    goal, limits = goal_words(request.objective, language), limits_in_words(request.constraints, language)
+    if request.method is not None:
+        by = message(language, "request.by_method", method=called(language, request.method))
+        limits = message(language, "text.between").join(part for part in (limits, by) if part)
+    goal = goal[:1].upper() + goal[1:]
+    return message(language, "request.whole" if limits else "request.aim_alone", goal=goal, limits=limits)
+
+
+def changes_in_words(diff: Diff, language: str) -> str:
+    """What was changed of a request that held; empty for a first request.
+
+    >>> from wirelessagent.language.request import difference
+    >>> old, new = (Request(objective="max_rate", constraints={"max_power_w": watts}) for watts in (10.0, 5.0))
+    >>> changes_in_words(difference(old, new), "en")
+    'Now: at most 5 W of radiated power (before: 10 W).'
+    """
+    then_aim, now_aim = diff.objective
+    if then_aim is None:
+        return ""
+    said = list[str]()
+    if now_aim is not None and then_aim != now_aim:
+        then, now = goal_words(then_aim, language), goal_words(now_aim, language)
+        said.append(message(language, "changed.aim", then=then, now=now))
+    groups: dict[tuple[str, float | None, float], list[str]] = {}
+    for one in diff.changes:
+        if one.after is not None:
+            groups.setdefault((one.kind, one.before, one.after), []).append(one.user)
+    for (kind, before, after), users in groups.items():
+        now = limits_in_words(constraints_of({(kind, user): after for user in users}), language)
+        then = "" if before is None else figure_in_words(kind, before)
+        said.append(message(language, "changed.instead", now=now, then=then) if then else now)
+    told = message(language, "changed.changed", changes=message(language, "text.list").join(said)) if said else ""
+    gone = limits_in_words(diff.gone, language)
+    return joined(language, [told, message(language, "request.no_longer", limits=gone) if diff.gone else ""])
+
+
 @dataclass(frozen=True, kw_only=True)
 class Shift:
     """What became of an allocation that held, with another decision.
@@ -150,11 +195,6 @@ class Shift:
             said.append(message(language, "changed.subcarriers", moved=self.subcarriers, total=self.total))
         listed = message(language, "text.list").join(said)
         return message(language, "changed.allocation", changes=listed[:1].upper() + listed[1:]) if said else ""
-
-
-def in_use(allocation: Decision | Outcome) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
-    """The owner of each subcarrier that carries power, −1 elsewhere."""
-    return np.where(allocation.power_w > 0, allocation.owner, -1)
 
 
 def shift_between(before: Decision | None, after: Decision | None) -> Shift | None:
@@ -267,3 +307,11 @@ class Turn(Shown):
         said = {"number": self.number, "stage": self.stage, "text": self.text, "reply": self.reply}
         decided = {name: None if decision is None else getattr(decision, name) for name in figures}
         return {name: [value] for name, value in {**said, **decided}.items()}
+
+
+def unmet(turns: Sequence[Turn]) -> Run | None:
+    """What the line before asked for or supposed, where that can't be met; questions why lie between."""
+    why = (AskWhyNot, AskWhy)
+    last = next((turn for turn in reversed(turns) if not any(isinstance(act, why) for act in turn.acts)), None)
+    run = None if last is None else last.run
+    return None if run is None or run.decision.is_usable else run

@@ -1,7 +1,7 @@
 """Dialogue acts: what an utterance does to a conversation, each with the words that it came from.
 
 Acts are what recognisers make, whichever they are; :mod:`wirelessagent.language.request` is the only place that applies
-them. :func:`~wirelessagent.language.intent_acts.acts_of` gives those of an
+them. :func:`~wirelessagent.language.intent.acts_of` gives those of an
 :class:`~wirelessagent.language.intent.Intent`.
 """
 

@@ -10,10 +10,9 @@ import re
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from wirelessagent.language.deferred import deferred
-from wirelessagent.language.text import CLAUSE_END, USER_NOUN, Phrases
+from wirelessagent.language.text import AND, CLAUSE_END, USER_NOUN, Phrases
 from wirelessagent.language.vocabulary import one_edit
-from wirelessagent.language.word_tables import either, words_of
+from wirelessagent.language.word_tables import any_word, deferred, either, table, words_of
 
 Comparator: TypeAlias = Literal["at_least", "at_most", "exactly"]
 
@@ -56,12 +55,17 @@ _WORD = deferred(r"[A-Za-zÀ-ÿ]++")
 _BETWEEN = frozenset([*_words("between"), *_POWER_NOUNS, *_RATE_NOUNS])
 _SIGNS = "|".join(sorted((word for word in _BETWEEN if not _WORD.match(word)), key=len, reverse=True))
 _GAP = deferred(rf"(?:\s++|{_WORD.pattern}|{_SIGNS}){{0,16}}$")
-_FEW_WORDS = rf"(?:(?!(?:and|y|et|und)\s+(?!{USER_NOUN}|[0-9]))[\w'’#-]+\s+){{0,6}}?"
+_FEW_WORDS = rf"(?:(?!{AND}\s+(?!{USER_NOUN}|[0-9]))[\w'’#-]+\s+){{0,6}}?"
+
+
+def _capping(language: str) -> str:
+    bounds = table("figures", language)["bounds"]
+    return rf"\b(?:{'|'.join(bounds['caps'])})\w*\s+{_FEW_WORDS}(?:{'|'.join(bounds['caps_at'])})\b"
+
+
 _CAP = (  # "cap users at", "limite l'utilisateur 5 à", "limitado a", "auf … begrenzt" stands behind
-    rf"\b(?:rate-)?(?:cap|limit|restrict|throttl|clamp|polic|chok|stop|held\s+down|cut\s+off)(?:s|e|es|p?ed|t?ing|ping|ing)?\s+{_FEW_WORDS}"
-    rf"(?:at|to)\b|\b(?:l[ií]mit|c[aá]p|top|restring|fren|techo|tope)\w*\s+{_FEW_WORDS}(?:a|en)\b"
-    rf"|\b(?:limit|plafonn|brid|restrei|cap)\w*\s+{_FEW_WORDS}à(?!\w)"
-    rf"|\b(?:begrenz|beschränk|deckel|deckl|kapp|drossel|drossl|limitier)\w*\s+{_FEW_WORDS}(?:auf|bei)\b"
+    r"\b(?:rate-)?(?:cap|limit|restrict|throttl|clamp|polic|chok|stop|held\s+down|cut\s+off)"
+    rf"(?:s|e|es|p?ed|t?ing|ping|ing)?\s+{_FEW_WORDS}(?:at|to)\b|{'|'.join(map(_capping, ('es', 'fr', 'de')))}"
 )
 _BEFORE = Phrases(
     rf"(?P<at_least>{_any_of([*_words('at_least'), _MIN])})"
@@ -70,12 +74,15 @@ _BEFORE = Phrases(
     rf"|(?P<above>{_any_of([*_words('above'), _ABOVE_IN_CHINESE])})|(?P<below>{_any_of(_words('below'))})"
 )
 _NEGATION = deferred(rf"(?i){either('moods', 'negation', 'clause')}|{either('figures', 'bounds', 'forbids')}")
-_NOBODY = ("nobody", "without", "cannot", "nadie", "personne", "niemand")
+_NOBODY = _words("nobody")
+_ASIDE = deferred(  # "nobody, and I mean nobody, should fall under 1 Mbit/s"
+    rf"(?i)(?:{either('figures', 'users', 'nobody')})(?:\s*[,\uff0c][^,\uff0c.;:!?。]{{1,40}}){{1,2}}[,\uff0c]\s*$"
+)
 _DENIED_AFTER = deferred(  # "mehr als 24 Watt gibt's nicht", "below 1 Mbit/s nobody may fall"
-    rf"(?i)^(?:(?!\b(?:and|und|y|et|aber|but|sonst)\b)[\w\s'’-])*?(?:{either('figures', 'bounds', 'denied_behind')})"
+    rf"(?i)^(?:(?!\b(?:{AND}|aber|but|sonst)\b)[\w\s'’-])*?(?:{either('figures', 'bounds', 'denied_behind')})"
 )
 _AFTER_RE = deferred(
-    rf"(?i)[\s-]*(?:(?:auch|das|ist|sind|je|pro|nutzer|kopf|die|jeden|für|each|everyone|person|de|en|per|user|the|at)\s+){{0,5}}"
+    rf"(?i)[\s-]*(?:{any_word('figures', 'bounds', 'ahead_of_behind')}\s+){{0,5}}"
     rf"(?P<word>{_any_of(list(_BEHIND))})(?!\s*(?:of\s+|is\s+)?[0-9])"
 )
 _LAST_WORD = deferred(  # "10 W, no more", "10 kbit/s, no less and no more"
@@ -116,8 +123,7 @@ def comparison(text: str, start: int, end: int, *, kind: str, after: int) -> Com
     text = _without_stops(text)
     found = _before(text, start, end, kind=kind, after=after)
     behind = _AFTER_RE.match(text, end)
-    own = behind is None or not _LOOSE.match(text, found[1]) if found is not None else False
-    if found is not None and own:
+    if found is not None and (behind is None or not _LOOSE.match(text, found[1])):
         return Comparison(comparator=found[0], start=found[1], end=end)
     last = _LAST_WORD.match(text, end)
     if last is not None and behind is None:
@@ -155,6 +161,7 @@ def _before(text: str, start: int, end: int, *, kind: str, after: int) -> tuple[
         word = match.lastgroup
         if word in ("above", "below"):
             negated = _is_denied(text, max(clause_start, match.start() - 60), match.start(), end)
+            negated = negated or _ASIDE.search(text, after, clause_start) is not None
             return ("at_most" if (word == "above") == negated else "at_least"), match.start()
         if word == "at_least" or word == "at_most" or word == "exactly":
             return word, match.start()

@@ -28,7 +28,8 @@ _OPPOSITES = {
 }  # fmt: skip
 _UNSERVED = (*dict.fromkeys(_OPPOSITES.values()), "waste_power")
 _TURNED_FROM_BEHIND = ("max_energy_efficiency", "proportional_fairness", "max_min_rate")
-_SPOILERS = ("not", "isnt", "undo", "not_after", "bad", "down", "waste", "over", "join")
+_DENYING = ("not", "isnt", "undo")
+_SPOILERS = (*_DENYING, "not_after", "bad", "down", "waste", "over", "join")
 
 # What a direction and its object mean together, and how much that weighs.
 _PAIRS: dict[tuple[str, str], tuple[str, float]] = {
@@ -200,7 +201,7 @@ def _of_sharing(item: Found, found: Sequence[Found]) -> bool:
     return not degree and not power
 
 
-def _beside(item: Found, found: Sequence[Found], concept: str) -> Found | None:
+def _beside(item: Found | Signal, found: Sequence[Found], concept: str) -> Found | None:
     """The first term of a concept in the clause of ``item``."""
     return next((other for other in found if other.term.concept == concept and other.clause == item.clause), None)
 
@@ -209,7 +210,7 @@ def _for_the_worst(signals: list[Signal], found: Sequence[Found]) -> list[Signal
     """Wishes for rate that stand beside the slowest user, and nothing that may turn them round, are for that user."""
     result: list[Signal] = []
     for signal in signals:
-        user = next((item for item in found if item.term.concept == "worst" and item.clause == signal.clause), None)
+        user = _beside(signal, found, "worst")
         if signal.objective == "max_rate" and user is not None:
             gap = max(user.first - signal.last, signal.first - user.last, 0)
             spoilt = any(other.term.concept in _SPOILERS and other.clause == signal.clause for other in found)
@@ -283,13 +284,13 @@ def _blocked(found: Sequence[Found], direction: Found, item: Found) -> bool:
 def _negate(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
     """Signals with those turned off that a negation refers to; a negated wish for less rate is one for rate."""
     turned_off: set[int] = set()
-    first = min((item.start for item in found if item.term.concept in ("not", "isnt", "undo")), default=0)
+    first = min((item.start for item in found if item.term.concept in _DENYING), default=0)
     named = [item for item in found if item.term.concept in (*_OBJECTS, "direct", "same", "fairly")]
     joins = [item.first for item in found if item.term.concept == "join"]
     for item in found:
         same = [other for other in named if other.clause == item.clause]
         behind = [other for other in same if item.first - _REACH_OF_NOT <= other.first < item.first]
-        if item.term.concept in ("not", "isnt", "undo") or (item.term.concept == "over" and _prefers(found, item)):
+        if item.term.concept in _DENYING or (item.term.concept == "over" and _prefers(found, item)):
             ahead = [other for other in same if item.last <= other.first < item.last + _REACH_OF_NOT]
             turned_off.update(other.first for other in _with_joined(ahead, joins))
             if not ahead and _is_predicate(item, found):

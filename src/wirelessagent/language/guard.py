@@ -14,13 +14,13 @@ import dataclasses
 import re
 from typing import TYPE_CHECKING
 
-from wirelessagent.language.base_words import languages_of
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.order_model import shipped_order_model
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.request import users_in
 from wirelessagent.language.sentence import labels_of, own_words, read_once
 from wirelessagent.language.text import Span
+from wirelessagent.language.vocabulary import languages_of
 from wirelessagent.language.word_tables import table
 
 if TYPE_CHECKING:

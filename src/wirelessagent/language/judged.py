@@ -4,28 +4,187 @@ Numbers come first: the model says which are users ("al 6"), which borrow the un
 one"), which weigh and which only describe; thresholds decide, and what a number in its place can be at all: a bounded
 number is no user, a scaled one no weight. Then the model is asked what the users and the figures are there for, with
 all of them in sight.
+
+So a sentence is looked at twice: before anybody asks what its numbers are, and with those settled that turned out to be
+users or to borrow a unit, which get their unit and their value then ("user 3 needs 2 Mbit/s, the others only one").
 """
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from decimal import Decimal
 from typing import TypeVar
 
-from wirelessagent.language.deferred import deferred
-from wirelessagent.language.figure_roles import SCALED, answers, likely, shipped_roles
-from wirelessagent.language.leftovers import FOREIGN_UNIT, idioms, may_be_a_limit
-from wirelessagent.language.lifted import named_in
-from wirelessagent.language.looks import BORROWING, Look, first_look, ones, second_look, with_strangers
-from wirelessagent.language.mentions import JOINT, LISTED, Mention
+from wirelessagent.language.figure_roles import SCALED, View, answers, likely, shipped_roles
+from wirelessagent.language.mentions import BY_PLACE, JOINT, LISTED, Mention, mentions, merged
+from wirelessagent.language.moods import named_in
+from wirelessagent.language.number_words import listed
 from wirelessagent.language.numerals import Number
-from wirelessagent.language.quantities import Quantity
+from wirelessagent.language.quantities import Measure, Quantity, QuantityKind, measures
 from wirelessagent.language.request import numbered
-from wirelessagent.language.stated import COUNTED_USERS
-from wirelessagent.language.text import Phrases, is_within
-from wirelessagent.language.word_tables import either
+from wirelessagent.language.stated import CARRIERS, COUNTED_USERS, FOREIGN_UNIT, idioms, loose_numbers, may_be_a_limit
+from wirelessagent.language.text import WORD_OR_SIGN, Phrases, Span, is_within, overlaps
+from wirelessagent.language.units import unit_at
+from wirelessagent.language.word_tables import deferred, either
+
+BORROWING: Mapping[str, QuantityKind] = {
+    "rate": "rate", "power": "power", "multiple": "rate", "outage": "ratio", "reliability": "ratio",
+    "share": "ratio",
+}  # fmt: skip
+_SCALES = {"k": 10**3, "K": 10**3, "M": 10**6, "G": 10**9}
+_FAR = 200  # no two rates of one sentence are farther apart: another unit is meant
+_ALONE, _HALF, _BEHIND = (either("figures", "one", name) for name in ("alone", "half", "behind_alone"))
+_ONE = Phrases(  # "the others only one", against "one user"
+    rf"(?<![\w'-])(?:{_ALONE}|(?P<part>(?:(?:an?|une?|ein(?:e[nr]?)?)\s+)?(?:{_HALF})))"
+    rf"(?!\w)(?=\s*(?:$|[,.;:!?)]|{_BEHIND}))"
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Look:
+    """What a sentence holds: figures with a unit, everybody mentioned, the numbers that are neither.
+
+    ``ones`` are words such as "one", which are figures or nothing; ``unread`` bounds whose unit nobody knows.
+    """
+
+    plain: str
+    quantities: Sequence[Quantity]
+    figures: list[Quantity]
+    unread: list[Quantity]
+    mentions: list[Mention]
+    loose: list[Number]
+    ones: list[Number]
+
+    def view(self) -> View:
+        return View(self.plain, self.figures, self.mentions, self.loose, self.ones)
+
+    def bound(self, number: Number) -> str:
+        """How a number is bounded: "at_most", "None" without a comparator, "" where it is nothing but a number."""
+        found = [str(q.comparator) for q in self.quantities if q.start <= number.start < q.end]
+        return found[0] if found else ""
+
+
+def first_look(
+    plain: str, quantities: Sequence[Quantity], names: Sequence[str] = (), taken: Sequence[Span] = ()
+) -> Look:
+    """A sentence before anybody asked what its numbers are; ``taken`` spans are read elsewhere."""
+    clear = [q for q in quantities if not overlaps((q.start, q.end), taken)]
+    stated = [q for q in clear if q.kind not in ("bare", "other")]
+    spans = [(q.start, q.end) for q in stated]
+    found = mentions(plain, names, [*spans, *taken])
+    covered = [*spans, *taken, *((mention.start, mention.end) for mention in found)]
+    loose = loose_numbers(plain, covered)
+    able = any(figure.kind in ("rate", "power") for figure in stated)
+    alone = list(ones(plain, [*covered, *((n.start, n.end) for n in loose)])) if able else []
+    unread = [q for q in clear if q.kind == "other" and not overlaps((q.start, q.end), covered)]
+    return Look(
+        plain=plain, quantities=quantities, figures=stated, unread=unread, mentions=found, loose=loose, ones=alone
+    )
+
+
+def with_strangers(look: Look, names: Sequence[Span]) -> Look:
+    """The same with those among the users mentioned who are called by ``names`` that nobody is known by."""
+    found = _with_named(look, ((look.plain[start:end], (start, end)) for start, end in names))
+    return dataclasses.replace(look, mentions=found)
+
+
+def second_look(look: Look, users: Sequence[Number], roles: Mapping[Number, str]) -> Look:
+    """The same with the numbers that are ``users`` among those, and those that borrow a unit among the figures."""
+    borrowed = figures_of(look.plain, roles, look.quantities, look.figures)
+    if not users and not borrowed:
+        return look
+    figures = sorted([*look.figures, *borrowed.values()], key=lambda figure: figure.start)
+    settled = [(number.start, number.end) for number in [*borrowed, *users]]
+    return dataclasses.replace(
+        look, figures=figures, mentions=_with_named(look, ((str(int(n.value or 0)), (n.start, n.end)) for n in users)),
+        unread=[q for q in look.unread if not overlaps((q.start, q.end), settled)],
+        loose=[number for number in look.loose if number not in borrowed and number not in users], ones=[],
+    )  # fmt: skip
+
+
+def _with_named(look: Look, named: Iterable[tuple[str, Span]]) -> list[Mention]:
+    """The mentions, and users where they are named as well, from left to right, the items of a list made one."""
+    more = [Mention(role="named", users=(user,), start=start, end=end) for user, (start, end) in named]
+    return merged(look.plain, sorted([*look.mentions, *more], key=lambda mention: mention.start))
+
+
+def ones(plain: str, taken: Sequence[Span]) -> Iterator[Number]:
+    """Every "one" or "half" of a normalised text that stands alone, where no ``taken`` span is: no article is one."""
+    for match in _ONE.finditer(plain):
+        if not overlaps(match.span(), taken):
+            part = match["part"]
+            value = Decimal(1) if part is None else listed("parts")[part.split()[-1]]
+            yield Number(value=value, start=match.start(), end=match.end(), form="words")
+
+
+def figures_of(
+    plain: str, roles: Mapping[Number, str], quantities: Sequence[Quantity], stated: Sequence[Quantity]
+) -> dict[Number, Quantity]:
+    """The numbers that borrow a unit or a value, as quantities; those are missing that find none to borrow.
+
+    ``roles`` says what each number is, ``quantities`` hold their bounds, ``stated`` are the figures with a unit.
+    """
+    if not roles:
+        return {}
+    stated_units = [each for each in measures(plain) if each.unit is not None and each.number.value is not None]
+    units = sorted([*stated_units, *_declared(plain, stated_units)], key=lambda measure: measure.start)
+    found: dict[Number, Quantity] = {}
+    for number, role in roles.items():
+        scaled = SCALED.match(plain, number.end) if BORROWING[role] == "rate" else None
+        value = _value(number, role, scaled, units, [*stated, *found.values()])
+        if value is None:
+            continue
+        own = [q for q in quantities if q.start <= number.start < q.end]
+        end = scaled.end() if scaled is not None else number.end  # "400k"
+        found[number] = Quantity(
+            value=value, kind=BORROWING[role], text=plain[number.start : end], start=number.start, end=end,
+            comparator=own[0].comparator if own else None,
+            phrase_start=own[0].phrase_start if own else number.start,
+            phrase_end=max(end, own[0].phrase_end if own else end),
+        )  # fmt: skip
+    return found
+
+
+def _declared(plain: str, measured: Sequence[Measure]) -> Iterator[Measure]:
+    """Each unit that no figure has, as that of one: "en megas: 6 para el 2", "1.2 for 3, 2 for 4, all in Mbit/s"."""
+    taken = [(each.start, each.end) for each in measured]
+    for match in WORD_OR_SIGN.finditer(plain):
+        unit = None if overlaps(match.span(), taken) else unit_at(plain, match.start())
+        if unit is not None and unit.kind != "ratio":
+            number = Number(value=Decimal(1), start=match.start(), end=match.start(), form="words")
+            taken.append((match.start(), unit.end))
+            yield Measure(number=number, unit=unit, start=match.start(), end=unit.end)
+
+
+def _value(
+    number: Number, role: str, scaled: re.Match[str] | None, units: Sequence[Measure], stated: Sequence[Quantity]
+) -> float | None:
+    """What a number is worth in SI units, ``scaled`` by a letter or not; None where there is nothing to borrow from."""
+    if number.value is None:
+        return None
+    kind = BORROWING[role]
+    if kind == "ratio":
+        return float(number.value) if 0 < number.value < 1 else None
+    if role == "multiple":
+        earlier = [figure.value for figure in stated if figure.kind == "rate" and figure.end <= number.start]
+        return float(number.value) * earlier[-1] if earlier else None
+    if scaled is not None:
+        return float(number.value * _SCALES[scaled.group().strip()])
+    able = [measure for measure in units if measure.unit is not None and measure.unit.kind == kind]
+    before = [measure for measure in able if measure.end <= number.start][::-1]
+    after = [measure for measure in able if measure.end > number.start]
+    alike = [figure.value for figure in stated if figure.kind == kind]
+    for measure in (*before, *after):
+        value = measure.unit.value(number.value) if measure.unit is not None else 0.0
+        if not alike or any(1 / _FAR <= value / other <= _FAR for other in alike if other > 0):
+            return value
+    return None
+
 
 _Answer = TypeVar("_Answer")
 _Item = TypeVar("_Item", bound=Quantity | Number)
@@ -37,19 +196,19 @@ _MOST_WEIGHT = 10**6
 _ITEMS = deferred(rf"{LISTED.pattern}|\s*[:/]\s*")  # "weights 2:1:1"
 _WITH_A_JOINT = deferred(rf"(?i)(?=\s*\S)(?:{LISTED.pattern.removeprefix('(?i)')})")
 _WEIGHTS = deferred(  # what follows are weights, whatever else they may look like
-    r"(?i)(?:\b(?:weights?|weigh(?:s|ing|ed)?|pesos?|poids|gewichten?)(?:\s+(?:of|are|is|being|de|von|sind))?|权重(?:分别|依次|各)?[是为]?)\s*[:=]?\s*$"
+    rf"(?i)(?:(?:{either('figures', 'users', 'weights')})(?:\s+(?:of|are|is|being|de|von|sind))?|"
+    r"权重(?:分别|依次|各)?[是为]?)\s*[:=]?\s*$"
 )
 _OF_WEIGHTS = Phrases(either("figures", "users", "weighs"))
 _NEAR_BY, _ENDS = 40, deferred(r"[0-9.;!?。；]")  # of a list and its users, and what stands between neither
 _MOST_BARE_USERS = 100  # who is called by a number alone has a small one
 _SURE_OF_A_USER, _SURE_OF_A_WEIGHT, _SURE_OF_NOTHING, _SURE_OF_A_FIGURE, _SURE_OF_ONE = 0.6, 0.6, 0.6, 0.6, 0.5
 _CERTAIN_OF_A_USER, _SURE_OF_A_GROUP, _LIKELY, _PERHAPS = 0.85, 0.5, 0.4, 0.2
-_CARRIERS = Phrases(either("figures", "bounds", "carriers"))
 _CEILINGS = ("max_power_w", "subcarrier_max_power_w")
 _BOUNDED = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
 _Roles = Mapping[Number, Mapping[str, float]]
 """How likely each number has each role."""
-_ONCE, _MOST_POWERS, _HARDLY = ("max_power_w", "circuit_power_w"), 4, 0.01
+_ONCE, _MOST_POWERS, _HARDLY = ("max_power_w", "circuit_power_w", "subcarrier_max_power_w"), 4, 0.01
 
 
 class Judged:
@@ -75,8 +234,8 @@ class Judged:
         self.users_of_the_cell = [numbered(name) for name in names]
         first = first_look(plain, quantities, names, taken)
         view = first.view()
-        limits = [span for span, _ in named_in(plain)]
-        self.strangers = [each for each in view.strangers() if not any(is_within(each, limit) for limit in limits)]
+        known = [*(span for span, _ in named_in(plain)), *(match.span() for match in BY_PLACE.finditer(plain))]
+        self.strangers = [each for each in view.strangers() if not any(is_within(each, span) for span in known)]
         if self.strangers:
             first = with_strangers(first, self.strangers)
             view = first.view()
@@ -148,7 +307,7 @@ class Judged:
     def _meanings(self) -> dict[int, Mapping[str, float]]:
         """By place, how likely each figure has each role: those of a list have the same, and a cell has one limit."""
         means: dict[int, Mapping[str, float]] = {}
-        carriers = _CARRIERS.search(self._look.plain) is not None
+        carriers = CARRIERS.search(self._look.plain) is not None
         for place, figure in enumerate(self._look.figures):
             chances = answers(figure.kind, self._view.figure(place))
             means[figure.start] = _as_bounded(figure, chances, carriers=carriers)
@@ -367,11 +526,12 @@ def _users(plain: str, numbers: Sequence[Number], singles: Sequence[Number], cha
 
     One of the ``singles`` ("one") is a user in a list with others: "for the one and the three".
     """
-    able = [n for n in numbers if n.value is not None and 0 <= n.value == int(n.value) < _MOST_BARE_USERS]
     able = [
         n
-        for n in able
-        if n.form != "times"
+        for n in numbers
+        if n.value is not None
+        and 0 <= n.value == int(n.value) < _MOST_BARE_USERS
+        and n.form != "times"
         and COUNTED_USERS.match(plain, n.start) is None
         and FOREIGN_UNIT.match(plain, n.end) is None
     ]

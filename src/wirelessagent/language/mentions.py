@@ -2,6 +2,9 @@
 
 A reference is what the operator says: "3" for "user 3", "users 1 to 3" are ("1", "2", "3"). Names of the channel's own
 users count as they are. Whether a user is to be served, left out or promised something is not decided here.
+
+A user or a figure that the next words take back ("for user 3, sorry, user 5", "at least 1, no, 2 Mbit/s") is blanked
+before anybody reads the sentence; everything else stays where it stands, but a unit that the next figure borrows.
 """
 
 from __future__ import annotations
@@ -13,42 +16,39 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from wirelessagent.language.deferred import deferred
 from wirelessagent.language.number_words import cardinals, listed, tens_and_ones, whole
-from wirelessagent.language.numerals import TIGHT_LIST, chinese_value
-from wirelessagent.language.text import Phrases, clause_start, is_chinese, overlaps
+from wirelessagent.language.numerals import TIGHT_LIST, chinese_value, numbers
+from wirelessagent.language.text import AND, CJK, NUMBERED_USERS, Phrases, clause_start, is_chinese, normalise, overlaps
 from wirelessagent.language.units import unit_at
-from wirelessagent.language.word_tables import either, words_of
+from wirelessagent.language.vocabulary import language_of
+from wirelessagent.language.word_tables import any_word, deferred, either, table
 
 Role: TypeAlias = Literal["named", "everybody", "others", "pronoun"]
 
 ORDINALS = {word: str(place) for word, place in listed("ordinals").items()}
 _NUMBER_WORDS = {word: str(value) for word, value in cardinals(1, 20).items() if word != "once"} | {"un": "1"}
 
-NOUN = f"(?:{'|'.join(words_of('figures', 'users', 'nouns', 'things'))})"
-_EACH = f"(?:{'|'.join(words_of('figures', 'users', 'each'))})"
+NOUN, _EACH = any_word("figures", "users", "nouns", "things"), any_word("figures", "users", "each")
+_ORDINAL = f"(?:{'|'.join(sorted(ORDINALS, key=len, reverse=True))})"
 WORD_NUMBER = f"(?:{tens_and_ones()}|{'|'.join(sorted(_NUMBER_WORDS, key=len, reverse=True))})"
 JOINT_WORDS, ARTICLES = (either("figures", "users", name) for name in ("joins", "articles"))
-_AND = rf"(?:\s*(?:,|&|\+|/)\s*(?:(?:and|y|et|und|or)\s+)?|\s+(?:{JOINT_WORDS})\s+(?:(?:{ARTICLES})\s+)?)"
-_TO = (
-    r"(?:\s*(?:-|–|~|\.{2,3}|…)\s*|"
-    r"\s+(?:up\s+to|to|thru|through|al?|hasta\s+el|hasta|à|au|jusqu'(?:à|au)|bis(?:\s+zu)?)\s+)"
-)
+_AND = rf"(?:\s*(?:,|&|\+|/)\s*(?:(?:{AND}|or)\s+)?|\s+(?:{JOINT_WORDS})\s+(?:(?:{ARTICLES})\s+)?)"
+_TO = rf"(?:\s*(?:-|–|~|\.{{2,3}}|…)\s*|\s+{any_word('figures', 'users', 'to', 'as_far_as')}\s+)"
 _OF_ITS_OWN = (  # "6 for user 2, 3 for user 3": no list of users, as "1 and 5 to have …", "1 to 4 for now" are
     r"(?!\s+(?:for(?!\s+(?:now|today|tonight|good|once|the\s+moment|this|next)\b)|"
     r"to(?!\s+(?:have|get|receive|be|reach|see|go|run|enjoy|count|share|stay|[0-9]))|para(?!\s+(?:ahora|hoy|siempre))|"
     r"pour(?!\s+(?:l'instant|le\s+moment|aujourd))|für(?!\s+(?:heute|jetzt|immer|den\s+Moment)))\s)"
 )
-_NO = r"(?:(?:no|nr|num|núm)\.?|n[°º]|#|numbers?|n[úu]mero|numéro|nummer)"
+_NUMBER_NOUN = any_word("figures", "users", "number")
+_NO = rf"(?:(?:no|nr|num|núm)\.?|n[°º]|#|{_NUMBER_NOUN})"
 _DIGITS = r"[0-9]{1,4}(?!(?!\.\.)[0-9.,]*[0-9%]|[A-Za-z])"
 _WORD_LIST = rf"{WORD_NUMBER}\b(?:(?:{_AND}|{_TO}){WORD_NUMBER}\b)*"
 _SPACED = (  # "users 1 2 3", and nothing that is counted behind
-    r"(?<=s )[0-9]{1,2}(?:\s+[0-9]{1,2}){1,11}(?:\s+(?:and|y|et|und)\s+[0-9]{1,2})?(?![0-9.,]*[0-9%]|\s+[0-9])"
-    r"(?!\s*(?!(?:at|have|get|need|want|should|must|are|with|each|and|only|out|alone|excluded|to|left|not|may|shall|will|"
-    r"in|for|on|please)\b)[A-Za-zμ%×*^/])"
+    rf"(?<=s )[0-9]{{1,2}}(?:\s+[0-9]{{1,2}}){{1,11}}(?:\s+{AND}\s+[0-9]{{1,2}})?(?![0-9.,]*[0-9%]|\s+[0-9])"
+    rf"(?!\s*(?!{any_word('figures', 'users', 'goes_on')}\b)[A-Za-zμ%×*^/])"
 )
 _SPACED_WORDS = (  # "users one three and four", and no number goes on behind
-    rf"(?<=s ){WORD_NUMBER}(?:\s+{WORD_NUMBER})+(?:\s+(?:and|y|et|und)\s+{WORD_NUMBER})?\b"
+    rf"(?<=s ){WORD_NUMBER}(?:\s+{WORD_NUMBER})+(?:\s+{AND}\s+{WORD_NUMBER})?\b"
     rf"(?!\s+(?:{'|'.join(listed('scales'))}|point|and\s+an?\s|coma|y\s+medi|virgule|et\s+demi|komma)\b)"
 )
 _LIST = (
@@ -64,11 +64,12 @@ _NAMED = Phrases(
     rf"|(?<![A-Za-z])[RrWw]_?\{{?(?P<symbol>[0-9]{{1,2}})\}}?(?=\s*(?:[=≥≤<>∈]|\.\.))"
     rf"|(?<![A-Za-z0-9])r(?P<rate_of>[0-9]{{1,2}})(?![A-Za-z0-9.])|"
     rf"#\s?(?P<hash>[0-9]{{1,4}}(?:{_AND}#?\s?[0-9]{{1,4}})*)"
-    rf"|(?<![A-Za-z])(?:numbers?|n[úu]mero|numéro|nummer|no\.)\s+(?P<number>{_LIST})"
-    rf"|(?<![A-Za-z])(?P<ordinal>{'|'.join(sorted(ORDINALS, key=len, reverse=True))})\s+{NOUN}(?![A-Za-z])"
+    rf"|(?<![A-Za-z])(?:{_NUMBER_NOUN}|no\.)\s+(?P<number>{_LIST})"
+    rf"|(?<![A-Za-z])(?P<ordinal>{_ORDINAL})\s+{NOUN}(?![A-Za-z])"
 )
 _ZH_NUMBER = r"(?:[0-9]{1,4}|[一二三四五六七八九十]{1,3})"
 ZH_NOUN = r"(?:用户|終端|终端|用戶|UE|ue|客户|客戶|订户|设备|手机|节点)"
+_ANY_NOUN = rf"(?:{NOUN}|{ZH_NOUN})"
 
 
 def _zh_list(number: str) -> str:
@@ -79,7 +80,7 @@ def _zh_list(number: str) -> str:
 _ZH_LIST = rf"(?:{_zh_list('[0-9]{1,4}')}|{_zh_list('[一二三四五六七八九十]{1,3}')})"
 _ZH = deferred(
     rf"(?<!其他)(?<!其它)(?<!其余)(?:{ZH_NOUN}\s*(?P<after>{_ZH_LIST})(?!\s*[个名位台户兆瓦点起样直定边次共切致下])号?)"
-    rf"|(?<![权重乘取为=.0-9月])(?!(?<=重[设是给算])[0-9]{{1,4}}\s*[,\uff0c])(?P<hao>{_ZH_LIST})\s*[号號](?!线|楼|院|机房|站|小区|基站|人|桌|门|馆|店|厅|早|晚)\s*{ZH_NOUN}?"
+    rf"|(?<![权重乘取为=.0-9月])(?!(?<=重[设是给算])[0-9]{{1,4}}\s*[,\uff0c]|(?<=[第之]){_ZH_NUMBER}\s*[,\uff0c、])(?P<hao>{_ZH_LIST})\s*[号號](?!线|楼|院|机房|站|小区|基站|人|桌|门|馆|店|厅|早|晚)\s*{ZH_NOUN}?"
     rf"|第\s*(?P<nth>{_ZH_NUMBER})\s*[个位名]\s*{ZH_NOUN}"
 )
 _OTHERS = Phrases(
@@ -87,7 +88,8 @@ _OTHERS = Phrases(
     marks="else other rest remain those otr demás qued autre ander übrig verbleib 其 剩 余 另 别 旁",
 )
 _EVERYBODY = Phrases(
-    rf"{either('figures', 'users', 'everybody')}|\b(?:(?:per|a|/)\s?(?:{_EACH}|capita)|(?:por|par|pro|je) {_EACH})\b"
+    rf"{either('figures', 'users', 'everybody')}|"
+    rf"\b(?:(?:per|a|/)\s?(?:{_EACH}|capita)|{any_word('figures', 'users', 'by')} {_EACH})\b"
 )
 _PRONOUN = Phrases(either("figures", "users", "pronouns"))
 _FEW = rf"(?:[0-9]{{1,2}}|{WORD_NUMBER}|beiden)"
@@ -95,7 +97,7 @@ _ENDS = {name: f"(?:{either('figures', 'users', name)})" for name in ("first", "
 _ON = either("figures", "users", "from_on")
 _UNIT = r"%|(?:[kmg]|mega|kilo|giga)?(?:bit|bps|b/s)|[km]\b|m?w\b|(?:milli)?watt|db|megs?\b|兆|瓦"
 PLACED = {
-    "noun": NOUN, "ordinal": f"(?:{'|'.join(sorted(ORDINALS, key=len, reverse=True))})",
+    "noun": NOUN, "ordinal": _ORDINAL,
     "digits": rf"[0-9]{{1,3}}(?![0-9.,]*[0-9]|\s?(?:{_UNIT}))",
 }  # fmt: skip
 """What stands in the places of lists of users: nouns, ordinals, and numbers with no unit behind."""
@@ -126,17 +128,15 @@ LISTED = deferred(  # between the figures of a list
     rf"(?i)\s*(?:[,;、\uff0c]|{JOINT.pattern.removeprefix('(?i)')}|,?\s*(?:and then|beziehungsweise|bzw\.?|"
     r"respectively))\s*"
 )
-_EACH_OF = deferred(
-    rf"(?i)(?:{either('figures', 'users', 'each_of')})\s*(?:{NOUN}|{ZH_NOUN})?\s*(?:from|de|von|entre)?\s*$"
-)
+_EACH_OF = deferred(rf"(?i)(?:{either('figures', 'users', 'each_of')})\s*{_ANY_NOUN}?\s*(?:from|de|von|entre)?\s*$")
 _LONGEST_RANGE, _NEAR = 100, 25
 _RANGE = deferred(rf"(?i){_TO}(?:l')?|\s*[到至]\s*")
 _UP_TO = deferred(rf"(?i)号?{_TO}|\s*号?\s*[到至]\s*")
-_ITEM = deferred(rf"(?i)[0-9]+|\b(?:{'|'.join(ORDINALS)})\b|{WORD_NUMBER}\b|[一二三四五六七八九十]+")
+_ITEM = deferred(rf"(?i)[0-9]+|\b{_ORDINAL}\b|{WORD_NUMBER}\b|[一二三四五六七八九十]+")
 _AND_BETWEEN = deferred(r"(?i)[a-z和与跟及&/、]")
-_LAST_COMMA = deferred(r"(?i)\s*[,\uff0c]\s*(?:(?:and|y|e|et|und)\s+)?(?=[^,\uff0c]*$)")
+_LAST_COMMA = deferred(rf"(?i)\s*[,\uff0c]\s*(?:(?:{AND}|e)\s+)?(?=[^,\uff0c]*$)")
 _WITHOUT = Phrases(either("figures", "users", "without"))
-_GOES_ON = deferred(r"(?i)\s*(?:$|[=≥≤<>:,.;!?、\uff0c。；]|and\b|or\b|和|y\b|et\b|und\b)")
+_GOES_ON = deferred(rf"(?i)\s*(?:$|[=≥≤<>:,.;!?、\uff0c。；]|(?:{AND}|or)\b|和)")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -215,7 +215,7 @@ def _without_quantity(plain: str, match: re.Match[str], group: str) -> int:
     offset = match.start(group)
     for one, other in itertools.pairwise(parts):  # "4, 6 and 7 to 1, 2 and 5 Mbit/s"
         reaches = _UP_TO.fullmatch(plain, offset + one.end(), offset + other.start()) is not None
-        if reaches and int(_number(other.group().lower()) or 0) < int(_number(one.group().lower()) or 0):
+        if reaches and int(_number(other.group()) or 0) < int(_number(one.group()) or 0):
             return offset + one.end()
     measured = bool(parts) and unit_at(plain, offset + parts[-1].end()) is not None
     if measured and len(parts) == 2 and is_of_each(plain, match.start(group)):
@@ -224,7 +224,7 @@ def _without_quantity(plain: str, match: re.Match[str], group: str) -> int:
         several = len(parts) > 1 and plain[offset + parts[-2].end() : offset + parts[-1].start()] != ","  # "1,5 Mbit/s"
         return offset + parts[-2].end() if several else offset
     if len(parts) > 1 and _UP_TO.fullmatch(plain, offset + parts[-2].end(), offset + parts[-1].start()):
-        first, last = (int(_number(part.group().lower()) or 0) for part in parts[-2:])
+        first, last = (int(_number(part.group()) or 0) for part in parts[-2:])
         return match.end() if last - first < _LONGEST_RANGE else offset + parts[-2].end()
     return match.end()
 
@@ -239,7 +239,7 @@ def _listed(text: str) -> tuple[str, ...]:
     users: list[str] = []
     previous, previous_end = "", 0
     for part in _ITEM.finditer(text):
-        user = _number(part.group().lower())
+        user = _number(part.group())
         if not user:
             continue
         spans = previous and _UP_TO.fullmatch(text, previous_end, part.start())
@@ -251,6 +251,7 @@ def _listed(text: str) -> tuple[str, ...]:
 
 
 def _number(word: str) -> str:
+    word = word.lower()
     if word.isdigit():
         return str(int(word))
     known = ORDINALS.get(word) or _NUMBER_WORDS.get(word)
@@ -309,3 +310,78 @@ def _parted(plain: str, mention: Mention) -> tuple[Mention, ...]:
         Mention(role="named", users=first, start=mention.start, end=comma.start()),
         Mention(role="named", users=last, start=comma.end(), end=mention.end),
     )
+
+
+_DIGIT = "一二两三四五六七八九十"
+_NUMBER = rf"(?:(?<![A-Za-z0-9.,])[0-9]+(?:[.,][0-9]+)?|\b{WORD_NUMBER}\b|(?<![{_DIGIT}])[{_DIGIT}]{{1,3}}+)"
+_FOR = rf"(?:{either('figures', 'users', 'given_to')}|{ARTICLES})"
+_BREAK = r"\s*+(?:[,;\uff0c；、啊哎哦唉]|[-–—…]++|\.{2,3}+)\s*+"
+_CORRECTS, _MEANS = (either("figures", "one", name) for name in ("corrects", "means"))
+_JOINT = rf"(?:{JOINT_WORDS}|\b{any_word('figures', 'users', 'to')}\b|[~/&+、到至和与]|(?<=[0-9])[-–](?=[0-9]))"
+_FILLED = either("figures", "one", "fillers")
+_TOKEN = rf"(?:[{CJK}]|(?:(?![{CJK}])[^\W\d_])++(?:['’](?:(?![{CJK}])[^\W\d_])++)?)"
+_PAUSE = rf"(?:(?:{_FILLED})\s*+|{_BREAK})"
+_RETURN = deferred(  # what stands between a figure and the one that takes its place: words of either, what takes back
+    rf"(?i)(?P<tail>(?:\s*+{_TOKEN}){{0,4}}?)\s*+(?P<back>(?P<pause>{_PAUSE}*+)(?P<said>{_CORRECTS}|(?P<means>{_MEANS}))"
+    rf"(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}))*+)\s*+)(?P<head>(?:{_TOKEN}\s*+){{0,5}}?)"
+)
+_ENDED = deferred(r"\s*(?:$|[,.;:!?)\uff0c\uff1b。、](?![0-9]))")
+_SURELY_A_RATE, _MOST_USERS, _NO_MORE = 20, 100, ("no", "不")
+_ANOTHER_USER = deferred(rf"(?i)(?:(?:{_FOR}|{_ANY_NOUN})\s*)++")
+_OF_USERS = deferred(rf"(?i)(?:{_FOR}|{NUMBERED_USERS.removesuffix('$')})\s*$")
+_LIST_AHEAD = deferred(rf"(?i){_NUMBER}\s*号?\s*(?:,\s*)?(?:{_JOINT}|,)\s*(?:{_FOR}\s*)?(?:{_ANY_NOUN}\s*)?$")
+_LIST_BEHIND = deferred(rf"(?i)\s*号?\s*{_JOINT}\s*(?:{_FOR}\s*)?(?:{_ANY_NOUN}\s*)?{_NUMBER}")
+
+
+def without_corrected(text: str) -> str:
+    """The sentence without what it takes back, all else at its place.
+
+    >>> " ".join(without_corrected("user 6 at least 1, no, 2 Mbit/s").split())
+    'user 6 at least 2 Mbit/s'
+    >>> " ".join(without_corrected("for user 3 - sorry, I mean user 5 - 1 Mbit/s").split())
+    'for user 5 - 1 Mbit/s'
+    """
+    for start, end, instead in _taken_back(normalise(text)):
+        text = text[:start] + instead.rjust(end - start) + text[end:]
+    left = _fillers(language_of(text)).sub(lambda match: " " * len(match[0]), text)
+    return text if left.isspace() else left
+
+
+@functools.cache
+def _fillers(language: str) -> re.Pattern[str]:
+    """The sounds of a language that fill a pause and say nothing, with a comma behind."""
+    words = "|".join(table("figures", language)["one"]["fillers"])
+    return deferred(rf"(?i)(?<![A-Za-zÀ-ÿ'])(?:{words})(?![A-Za-zÀ-ÿ'])(?:\s*[,\uff0c])?")
+
+
+def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
+    """The spans of numbers in whose place the next one stands, with the words that say so, and what is to stand there.
+
+    Words between stand ahead of the first as well, or behind the second: "at least 4 Mbit/s each, no, 5 Mbit/s each".
+    A figure without a unit in the place of one that has it gets the unit, where it is nobody's number. What of a list
+    is taken back, nobody knows: "users 1 and 2, no, 3".
+    """
+    found = [(number, unit_at(plain, number.end)) for number in numbers(plain)]
+    for (wrong, its), (right, other) in itertools.pairwise(found):
+        said = _RETURN.fullmatch(plain, its.end if its else wrong.end, right.start)
+        if said is None or wrong.value == right.value or _LIST_AHEAD.search(plain, 0, wrong.start):
+            continue
+        ahead, behind = plain[: wrong.start].casefold().rstrip(), plain[other.end if other else right.end :].casefold()
+        head, tail = said["head"].casefold().strip(), said["tail"].casefold().strip()
+        user = _OF_USERS.search(plain, 0, wrong.start) is not None or plain[wrong.end : wrong.end + 1] in ("号", "號")
+        repeated = ahead.endswith(head) or (user and _ANOTHER_USER.fullmatch(head) is not None)
+        doubled = any(map(str.isalpha, said["pause"] + said["more"]))
+        if head and not doubled and not said["more"] and said["said"].casefold() in _NO_MORE:
+            continue  # "no service to 6, no service to 7"
+        if its is not None and other is None:
+            value = right.value or 0
+            if not head and (value != int(value) or value >= _SURELY_A_RATE) and _ENDED.match(plain, right.end):
+                unit = plain[wrong.end : said.start("back")].rstrip()
+                yield wrong.start, right.end, plain[right.start : right.end] + unit
+        elif repeated and behind.lstrip().startswith(tail):
+            paused = said["pause"] or said["means"] or doubled
+            measured = other is not None and not user and (its is None or its.kind == other.kind)
+            able = not user or head or (right.value or 0) < _MOST_USERS
+            alike = its is other and able and paused and (head or tail or not said["means"])
+            if measured or (alike and _LIST_BEHIND.match(plain, right.end) is None):
+                yield wrong.start, right.start, ""

@@ -1,14 +1,23 @@
-"""Closed classes of words by language, and where they stand: data in ``moods/<language>.toml``."""
+"""Closed classes of words by language, and what they say of a sentence, whatever it speaks of.
+
+Its moods are data in ``moods/<language>.toml``. Its form is a question, a statement, a bare yes or no, or a program.
+The words that lift a limit stand beside what limits are called (``[lifted]`` in ``figures/<language>.toml``).
+"""
 
 from __future__ import annotations
 
 import functools
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
-from wirelessagent.language.base_words import languages_of
-from wirelessagent.language.text import Span, clause_start
-from wirelessagent.language.word_tables import table
+from wirelessagent.language.intent import CONSTRAINTS
+from wirelessagent.language.text import Span, clause_start, is_within
+from wirelessagent.language.vocabulary import languages_of
+from wirelessagent.language.word_tables import deferred, either, table, words_of
+
+if TYPE_CHECKING:
+    from wirelessagent.language.recogniser import Context
 
 _LETTER = r"[0-9A-Za-zÀ-ɏ]"
 
@@ -90,15 +99,7 @@ def is_supposed(plain: str) -> bool:
     >>> is_supposed("what if it were 5 W"), is_supposed("nothing above 5 W")
     (True, False)
     """
-    reaches = (table_of(language)["condition"].items() for language in languages_of(plain))
-    words = (listed for classes in reaches for reach, listed in classes if reach != "first")
-    return any(any(True for _ in places(listed, plain)) for listed in words)
-
-
-_GAP = (  # between words of an expression: "he'd also like"
-    r"\s+(?:(?:also|really|very much|just|rather|only|even|still|dearly|much|auch|gern|sehr|eben|aussi|"
-    r"bien|encore|también|mucho|solo)\s+)?"
-)
+    return any(name.startswith("condition:") and name != "condition:first" for name, _ in classes_in(plain))
 
 
 @functools.cache
@@ -112,8 +113,167 @@ def _pattern(word: str) -> re.Pattern[str]:
     return re.compile(_written(word), re.IGNORECASE)
 
 
+@functools.cache
+def _gap() -> str:
+    """What may stand between words of an expression: "he'd also like"."""
+    return rf"\s+(?:(?:{_any('between')})\s+)?"
+
+
 def _written(word: str) -> str:
-    body = re.escape(word).replace(r"\ ", _GAP).replace(r"\*", r"\w*").replace(r"\#", r"\s?\d+\s?")
+    body = re.escape(word).replace(r"\ ", _gap()).replace(r"\*", r"\w*").replace(r"\#", r"\s?\d+\s?")
     if "\u3400" <= word[-1] <= "\u9fff" or "\u3400" <= word[0] <= "\u9fff":
         return body
     return (rf"(?<!{_LETTER})" if word[0].isalnum() else "") + body + (rf"(?!{_LETTER})" if word[-1].isalnum() else "")
+
+
+def _any(name: str) -> str:
+    """What a sentence of any language may be said with, by a list of ``[sentences]`` in ``talk_forms``."""
+    return either("talk_forms", "sentences", name)
+
+
+_ASKS = deferred(rf"(?i)\s*(?:{_any('surely_asks')})")
+_ASKS_ELSEWHERE = deferred(rf"(?i)\s*[¿]?(?:(?:und|et|y) )?(?:{_any('asks')})")
+_IMPERATIVE = deferred(rf"(?i)^\s*(?:\w+,? )?have\b|{_any('begs')}")
+_KEEPING = deferred(rf"(?i)^\s*(?:{either('figures', 'kept', 'leads')})|{either('figures', 'kept', 'limits')}")
+_ONLY_ASKING = deferred(f"(?i){_any('only_asks')}")
+_ANSWERS = {topic: deferred(rf"(?i)\s*(?:{_any(topic)})\s*[.!。\uff01~]*\s*") for topic in ("confirm", "reject")}
+_COMPARES = deferred(
+    rf"(?i)\s*(?:please\s+|请)?(?:{'|'.join(words_of('talk_forms', 'sentences', 'compares'))})(?![A-Za-z])"
+)
+_CODE = deferred(  # programs, mark-up and injections are no wishes
+    r"<[|/!a-zA-Z]|\{\{|\}\}|\$\(|--\s*$|\\x|__\w+__|"
+    r"(?i:\b(?:select|delete|drop|insert|update)\b.*\b(?:from|table|into|set)\b.*[;*=]|;\s*commit\b|"
+    r"\bdrop\s+table\b|\bbegin\b.*\bdelet|\b(?:os|"
+    r"sys)\.\w+\()|"
+    rf"(?i:{_any('injects')})"
+)
+_TAG = deferred(  # "…, will you?", "…, ¿vale?", "…，好吗？"
+    rf"(?i)(?:[\s,]+(?:{_any('tags_alone')})|,\s*(?:{_any('tags')})|"
+    rf"[,\uff0c]?\s*(?:{_any('particles')}))\s*[?\uff1f]\s*$"
+)
+
+
+def without_a_tag(text: str) -> str:
+    """A text without the polite question at its end.
+
+    >>> without_a_tag("stay below 8 W, will you?"), without_a_tag("is 8 W enough?")
+    ('stay below 8 W', 'is 8 W enough?')
+    """
+    tag = _TAG.search(text.replace("¿", ""))
+    return text.replace("¿", "")[: tag.start()] if tag is not None else text
+
+
+def is_asked(plain: str) -> bool:
+    """Whether a sentence is certainly a question: it ends like one, or says that it only asks."""
+    if _ONLY_ASKING.search(plain) is not None:
+        return True
+    return begins_like_a_question(plain) and plain.rstrip().endswith(("?", "\uff1f"))
+
+
+def begins_like_a_question(plain: str) -> bool:
+    """Whether a sentence begins with who, what, how much or an auxiliary verb."""
+    return _ASKS.match(plain) is not None
+
+
+def asks_without_a_mark(plain: str) -> bool:
+    """Whether a sentence is a question by its first words, with a question mark or without.
+
+    >>> asks_without_a_mark("what's the total rate"), asks_without_a_mark("have everyone at 1 Mbit/s")
+    (True, False)
+    """
+    asks = begins_like_a_question(plain) or _ASKS_ELSEWHERE.match(plain) is not None
+    return asks and _IMPERATIVE.search(plain) is None
+
+
+def keeps_the_limits(plain: str) -> bool:
+    """Whether a sentence with a wish changes the request at hand rather than replacing it."""
+    return _KEEPING.search(plain) is not None
+
+
+def is_a_program(text: str) -> bool:
+    """Whether a text is a program, a query, mark-up, or speaks to a language model rather than of a cell."""
+    return _CODE.search(text) is not None
+
+
+def plain_command(plain: str) -> str:
+    """The command that a sentence is as a whole ("yes", "compare …"), or ""."""
+    if _COMPARES.match(plain):
+        return "compare"
+    return next((topic for topic, words in _ANSWERS.items() if words.fullmatch(plain)), "")
+
+
+_GENERAL = ("max_power_w", "min_rate_bps", "max_rate_bps", "outage_probability", "subcarrier_max_power_w")
+"""What "all limits" are."""
+
+
+def dropped_in(plain: str, context: Context | None) -> tuple[tuple[str, ...], tuple[Span, ...]]:
+    """The constraints that a sentence lifts, and the spans of the words that say so.
+
+    >>> dropped_in("without the power limit", None)[0], dropped_in("forget the weights, and the power limit", None)[0]
+    (('max_power_w',), ('max_power_w', 'weights'))
+    """
+    found, alone = lifted_in(plain), list(places(_lifted("alone"), plain))
+    if alone or found.keys() == {"all"}:
+        held = () if context is None or alone else tuple(context.constraints)
+        return tuple(name for name in _GENERAL if name in held) or ("max_power_w",), (*found.values(), *alone)
+    return tuple(name for name in CONSTRAINTS if name in found), tuple(found.values())
+
+
+def lifted_in(plain: str) -> dict[str, Span]:
+    """The limits that a sentence lifts, "all" for any, each with the span of the words that say so.
+
+    Words that lift a limit stand ahead of its name or behind it, with no denial beside them; another may follow.
+    """
+    limits = named_in(plain)
+    if not limits:
+        return {}
+    go, gone = (list(places(_lifted(name), plain)) for name in ("go", "gone"))
+    denied = list(places(_denying(), plain))
+    found: dict[str, Span] = {}
+    for span, name in limits:
+        ahead = [each for each in go if _is_beside(plain, each, span)]
+        ahead += [each for each in found.values() if _is_beside(plain, each, span, ",")]
+        behind = [each for each in gone if _is_beside(plain, span, each)]
+        whole = min([span, *ahead])[0], max([span, *behind])[1]
+        denies = any(_is_beside(plain, each, whole) or _is_beside(plain, whole, each) for each in denied)
+        if (ahead or behind) and not denies:
+            found.setdefault(name, whole)
+    return found
+
+
+def is_denied(plain: str) -> bool:
+    """Whether a word that lifts a limit is denied.
+
+    >>> is_denied("don't drop user 2's minimum"), is_denied("drop the limit"), is_denied("no limit any more")
+    (True, False, False)
+    """
+    lifts = [*places(_lifted("go"), plain), *places(_lifted("gone"), plain)]
+    return any(_is_beside(plain, one, other) for one in places(_denying(), plain) for other in lifts)
+
+
+def may_lift(name: str, plain: str) -> bool:
+    """Whether a sentence names a limit, and has a word that may take it back."""
+    back = (*_lifted("go"), *_lifted("gone"), *_denying())
+    return any(each == name for _, each in named_in(plain)) and any(places(back, plain))
+
+
+def named_in(plain: str) -> list[tuple[Span, str]]:
+    """Where a sentence names a limit, and which, "all" for any; a name within a longer one is none."""
+    named = [(span, name) for name in (*CONSTRAINTS, "all") for span in places(_lifted(name), plain)]
+    longer = [other for other, _ in named]
+    return [
+        each for each in sorted(named) if not any(each[0] != other and is_within(each[0], other) for other in longer)
+    ]
+
+
+def _lifted(name: str) -> tuple[str, ...]:
+    return words_of("figures", "lifted", name)
+
+
+def _denying() -> tuple[str, ...]:
+    return words_of("moods", "negation", "clause")
+
+
+def _is_beside(plain: str, first: Span, then: Span, joined_by: str = "") -> bool:
+    """Whether nothing but small words stands between two places."""
+    return first[1] <= then[0] and not without(_lifted("between"), plain[first[1] : then[0]]).strip(joined_by + " ")

@@ -12,8 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 
-from wirelessagent.language.deferred import deferred
-from wirelessagent.language.word_tables import table
+from wirelessagent.language.word_tables import deferred, table
 
 _PLAIN = str.maketrans("áàâäéèêëíîïóôöúùûüñç", "aaaaeeeeiiiooouuuunc")
 _GERMAN_PLAIN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
@@ -80,13 +79,13 @@ class Spoken:
 
 
 @functools.cache
-def listed(name: str) -> Mapping[str, Decimal]:
+def listed(name: str, section: str = "numbers") -> Mapping[str, Decimal]:
     """The words of all languages that stand for a number, as they are spelt, by a list of their tables.
 
     >>> listed("ordinals")["fifth"], listed("scales")["tausend"], listed("fold")["twice"]
     (Decimal('5'), Decimal('1000'), Decimal('2'))
     """
-    tables = [table("figures", language)["numbers"][name] for language in LANGUAGES]
+    tables = [table("figures", language)[section].get(name, {}) for language in LANGUAGES]
     return {word: Decimal(str(value)) for words in tables for word, value in words.items()}
 
 
@@ -171,8 +170,9 @@ def german_value(word: str) -> Decimal | None:
         left, found, right = word.partition(name)
         if found:
             times, rest = german_value(left or "ein"), german_value(right.removeprefix("und") or "null")
-            fits = times is not None and rest is not None and times < 1000 and rest < scale
-            return times * scale + rest if fits and times is not None and rest is not None else None
+            if times is None or rest is None or times >= 1000 or rest >= scale:
+                return None
+            return times * scale + rest
     ones, joined, tens = word.partition("und")
     if joined and ones in _GERMAN_ONES and tens in _GERMAN_TENS and _GERMAN_ONES[ones] < 10:
         return Decimal(_GERMAN_ONES[ones] + _GERMAN_TENS[tens])
@@ -310,10 +310,10 @@ class _Reader:
             return value
         start = self._place
         self._place += 1
-        times = Decimal(1) if self._is_part(0) else self._value(self._word())
-        if self._word() in self._grammar.articles:
-            times = Decimal(1)
-        self._place += 0 if self._is_part(0) else 1
+        times: Decimal | None = _ONE
+        if not self._is_part(0):
+            times = _ONE if self._word() in self._grammar.articles else self._value(self._word())
+            self._place += 1
         if times is None or not self._is_part(0):
             self._place = start
             return value

@@ -12,11 +12,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import Decimal
 
-from wirelessagent.language.base_words import language_of
-from wirelessagent.language.deferred import deferred
 from wirelessagent.language.number_words import Spoken, cardinals, languages_of, listed, spoken
-from wirelessagent.language.text import NUMBERED_USERS, Phrases
+from wirelessagent.language.text import AND, NUMBERED_USERS, Phrases
 from wirelessagent.language.units import unit_at
+from wirelessagent.language.vocabulary import language_of
+from wirelessagent.language.word_tables import any_word, deferred, table, words_of
 
 _HALF = Decimal("0.5")
 _SCALES = {word: int(value) for word, value in listed("scales").items() if word != "cent"}  # of money
@@ -57,18 +57,13 @@ _AND_PART = deferred(
     r"\s?(?P<sign>[½¼¾]))"
 )
 _OVER = deferred(r"/(?P<below>[1-9][0-9]?)(?![0-9/])(?:\s+(?:of\s+an?|de|d'un))?")
-_SCALED, _LISTED_AHEAD = deferred(r"[kKM](?![A-Za-z])"), deferred(r"(?i)[0-9]\s*(?:,|&|和|、|\b(?:and|und|y|et)\b)\s*$")
+_SCALED, _LISTED_AHEAD = deferred(r"[kKM](?![A-Za-z])"), deferred(rf"(?i)[0-9]\s*(?:,|&|和|、|\b{AND}\b)\s*$")
 _VAGUELY = deferred(r"[来多余几]")
 _THOUSANDFOLD = deferred(r"比特|字节|瓦(?!时)")
-_AS_FEW = deferred(r"(?i)\b(?:as|so|too|tan|aussi|zu|very|muy|trop)\s+$")
-_EACH = (
-    r"(?<!every )(?<!each )(?<!per )(?<!all )(?<!cada )(?<!por )(?<!chaque )(?<!par )(?<!jeder )(?<!jeden )(?<!pro )"
-)
+_AS_FEW = deferred(rf"(?i)\b{any_word('figures', 'numbers', 'degrees')}\s+$")
+_EACH = "".join(f"(?<!{word} )" for word in words_of("figures", "users", "of_each"))
 _NAMED = deferred(rf"(?i){_EACH}{NUMBERED_USERS}")
-_PLURAL = deferred(
-    r"(?i)\b(?:users|ues|subscribers|customers|clients|devices|phones|usuarios|abonados|utilisateurs|"
-    r"abonnés|usagers|kunden)\s*$"
-)
+_PLURAL = deferred(rf"(?i)\b{any_word('figures', 'users', 'plurals')}\s*$")
 _BELOW_ZERO = deferred(r"(?i)(?<!al )(?<!lo )(?<!au )(?<!ou )\b(?:menos|moins)\s+$")
 
 MOST_FIGURES = 40
@@ -78,29 +73,19 @@ _FIGURE = deferred(
     rf"\b(?:{'|'.join([*cardinals(2, 99), *listed('scales')])})\b"
 )
 
-_ONE_AND_A_HALF = ("uno y medio", "un et demi", "one and a half", "una y media", "une fois et demie", "una vez y media")
-_FOLDS = {
-    **cardinals(2, 10),
-    **listed("fold"),
-    **dict.fromkeys(_ONE_AND_A_HALF, Decimal("1.5")),
-    **dict.fromkeys(("dos y medio", "deux et demi", "two and a half", "deux fois et demie"), Decimal("2.5")),
-}
+_FOLDS = {**cardinals(2, 10), **listed("fold"), **listed("halves"), **listed("half_folds")}
 _MANY = "(?:" + "|".join(sorted(_FOLDS, key=len, reverse=True)) + ")"
-_CHINESE_FOLDS = {
-    **dict.fromkeys(("翻倍", "加倍", "双倍", "双份", "翻一番"), 2),
-    **{f"{counts}{two}个": 2 for counts in "顶当算" for two in "两二"},
-    **dict.fromkeys(("减半", "一半", "半份", "半倍"), _HALF),
-}
+_CHINESE_FOLDS = table("figures", "zh")["folds"]
+_TIMES_WORDS = any_word("figures", "numbers", "times")
 _TIMES = Phrases(
     rf"\b(?P<named>{'|'.join(listed('fold'))})\b|\b(?P<german>doppelt)\w*|"
-    rf"\b(?P<compound>{_MANY})(?:fach|mal)\w*|(?P<phrase>(?:une\s+fois\s+et\s+demie|deux\s+fois\s+et\s+demie|"
-    rf"una\s+vez\s+y\s+media))|"
-    rf"\b(?P<word>{_MANY})[\s-]?(?:times|veces|fois|mal|fold)\b|"
-    rf"\b(?:compt\w+|val\w+|pes\w+|p[eè]s\w+|cuent\w+|cont\w+|counts?|counting|count|zähl\w+)\s+(?:(?:al?|el|le|"
-    rf"l'|usuario|utilisateur|abonné|abonado|cliente?|user|[0-9]+)\s*){{0,4}}(?:pour|por|como|comme|for|as|für)\s+"
-    rf"(?P<counted>{_MANY})\b|"
-    r"(?<![\w.])(?:x\s?(?P<x>[0-9]+(?:\.[0-9]+)?)(?![\w.])|(?P<n>[0-9]+(?:[.,][0-9]+)?)\s*(?:times\b|x\b|-?fold\b|"
-    r"veces\b|fois\b|mal\b|-?fach\w*))|(?P<zhn>[0-9]+(?:\.[0-9]+)?)\s*倍|"
+    rf"\b(?P<compound>{_MANY})(?:fach|mal)\w*|(?P<phrase>{any_word('figures', 'numbers', 'half_folds')})|"
+    rf"\b(?P<word>{_MANY})[\s-]?{_TIMES_WORDS}\b|"
+    rf"\b(?:compt\w+|val\w+|pes\w+|p[eè]s\w+|cuent\w+|cont\w+|counts?|counting|count|zähl\w+)\s+"
+    rf"(?:(?:{any_word('figures', 'numbers', 'counted')}|[0-9]+)\s*){{0,4}}"
+    rf"{any_word('figures', 'numbers', 'counts_as')}\s+(?P<counted>{_MANY})\b|"
+    r"(?<![\w.])(?:x\s?(?P<x>[0-9]+(?:\.[0-9]+)?)(?![\w.])|(?P<n>[0-9]+(?:[.,][0-9]+)?)\s*"
+    rf"(?:(?:{_TIMES_WORDS}|x|-fold)\b|-?fach\w*))|(?P<zhn>[0-9]+(?:\.[0-9]+)?)\s*倍|"
     rf"(?P<zhfold>{'|'.join(_CHINESE_FOLDS)})|"
     r"(?P<zh>[一二两三四五六七八九十](?:点[一二三四五六七八九])?)(?P<zhmore>[倍份]半?)"
 )
@@ -257,21 +242,20 @@ def _in_words(text: str, match: re.Match[str], own: str) -> tuple[Number | None,
         assert run is not None
         places = list(_WORD.finditer(run.group()))
         said = spoken([place.group() for place in places], language)
-        number = _placed(text, match, said, places, language) if said is not None else None
+        if said is None:
+            continue
+        number = _placed(text, match, said, places, language)
         if number is None:
             continue
         measured = unit_at(text, number.end) is not None
-        if measured and not (said and said.is_article and language == "en" != own):
+        if measured and not (said.is_article and language == "en" != own):
             return _signed(match, text, number), language
         if language == own and _stands_alone(text, number, said):
             return number, language
     return None, own
 
 
-def _placed(
-    text: str, match: re.Match[str], said: Spoken | None, places: list[re.Match[str]], language: str
-) -> Number | None:
-    assert said is not None
+def _placed(text: str, match: re.Match[str], said: Spoken, places: list[re.Match[str]], language: str) -> Number | None:
     start, form = match.start("word"), "words" if language == "en" else "foreign"
     if said.value is None and _AS_FEW.search(text, max(0, start - 8), start):
         return None  # "as few watts as possible"
@@ -287,9 +271,9 @@ def _placed(
     return Number(value=said.value, start=start, end=end, form=form)
 
 
-def _stands_alone(text: str, number: Number, said: Spoken | None) -> bool:
+def _stands_alone(text: str, number: Number, said: Spoken) -> bool:
     """Whether words without a unit are a number: no article, and no vague word of a language other than English."""
-    if said is None or said.is_article:
+    if said.is_article:
         return number.form == "foreign" and text[number.start : number.end].lower() == "eines"
     return said.value is not None or number.form == "words"
 

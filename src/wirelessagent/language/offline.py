@@ -5,32 +5,152 @@ twice: by a lexicon with rules (``goals``: precise, but blind to what it does no
 (``sentence_model``: seldom at a loss, never quite certain). Where both agree little certainty is needed, where only the
 model speaks much; where they disagree the operator is asked. There is one default: a rate for each user under a power
 limit, with no wish, means the highest total rate with both. Any registered objective is understood by its name, its
-aliases and its own phrases.
+aliases and its own phrases. A question back costs a sentence, a wrong action a cell.
 """
 
 from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import cast
 
-from wirelessagent.language import forms
-from wirelessagent.language.base_words import language_in_a_talk
-from wirelessagent.language.deferred import deferred
-from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Intent
-from wirelessagent.language.judgement import Judgement, judge
-from wirelessagent.language.leftovers import unread
-from wirelessagent.language.lifted import dropped_in
-from wirelessagent.language.moods import is_ordered, is_supposed
+from wirelessagent.language import moods
+from wirelessagent.language.goals import Goal
+from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Intent, IntentKind
+from wirelessagent.language.moods import dropped_in, is_ordered, is_supposed
 from wirelessagent.language.numerals import MOST_FIGURES, too_many_figures
 from wirelessagent.language.quantities import amount_of_another_time
 from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.language.replies import Answer, Voice
 from wirelessagent.language.request import merged, serving
-from wirelessagent.language.sentence import labels_of, own_words, read_once
+from wirelessagent.language.sentence import BUILT_IN, Sentence, labels_of, own_words, read_once
+from wirelessagent.language.stated import unread
 from wirelessagent.language.text import normalise
 from wirelessagent.language.topics import about, details_of
-from wirelessagent.language.vocabulary import OwnWords
-from wirelessagent.language.word_tables import either, words_of
+from wirelessagent.language.vocabulary import OwnWords, language_in_a_talk
+from wirelessagent.language.word_tables import deferred, either, words_of
+
+_AGREED, _ENOUGH, _AGAINST = 0.4, 0.7, 0.9
+"""How likely an aim has to be for acting on it: one that the lexicon's rules find, too; none; or another."""
+
+_OWN_PHRASE_ASKED = 0.8
+_OTHER_KINDS = ("question", "command", "clarify", "out_of_scope")
+_NAMED, _CLEAR = 0.02, 0.6
+"""How likely an aim is, at least, that a question speaks of, and its share among all that it may speak of."""
+
+_WHAT_IF, _LIMITS = "question.what_if", "clarify.limits"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Judgement:
+    """The kind of a sentence and what it is about.
+
+    Attributes:
+        kind: the likeliest kind; "allocate" only where ``acts``.
+        topic: of a question, a command or what to clarify; "" otherwise.
+        objective: the likeliest objective, whatever the kind; its share is ``likeliest``.
+        limits: how likely the sentence only sets limits and names no objective.
+        certainty: 0 to 1, of what was decided.
+        acts: whether the objective is likely enough to act on it.
+        objective_clear: whether the operator named an objective by its own phrase.
+        spoken_of: the objective that a question speaks of; None where it speaks of limits or of nothing.
+    """
+
+    kind: IntentKind
+    topic: str
+    objective: str
+    likeliest: float
+    limits: float
+    certainty: float
+    acts: bool
+    objective_clear: bool = False
+    spoken_of: str | None = None
+
+
+def judge(sentence: Sentence, registered: set[str]) -> Judgement:
+    """What the sentence wants, among the registered objectives."""
+    goal, labels = sentence.goal, sentence.chances.kinds
+    kinds = _by_kind(labels)
+    objective = max(BUILT_IN, key=lambda name: labels[name])
+    share, limits = labels[objective], labels[_LIMITS]
+    command = moods.plain_command(sentence.plain)
+    if command:
+        return Judgement(
+            kind="command", topic=command, objective=objective, likeliest=share, limits=limits, certainty=1.0,
+            acts=False,
+        )  # fmt: skip
+    own_phrase = goal.verdict == "clear" and (goal.objective not in BUILT_IN or _is_all_said(sentence))
+    if own_phrase and kinds["question"][0] + kinds["command"][0] < _OWN_PHRASE_ASKED:
+        return Judgement(
+            kind="allocate", topic="", objective=goal.objective, likeliest=1.0, limits=0.0, certainty=goal.confidence,
+            acts=goal.objective in registered, objective_clear=True,
+        )  # fmt: skip
+    kind, spoken_of = _kind(sentence, kinds, objective, share), _spoken_of(goal, labels)
+    told = kind == "clarify" and sentence.worded and sentence.chances.is_told
+    if told and spoken_of is not None and spoken_of in labels:
+        kind, objective = "allocate", spoken_of  # "tomorrow, save power": the guard asks whether it is ordered now
+        share = labels[objective]
+    acts = kind == "allocate"
+    topic = "" if acts else kinds[kind][1]
+    if topic == "what_if" and sentence.reading.steps and labels["question.step"] > labels[_WHAT_IF] / 2:
+        topic = "step"
+    if topic == "step" and _is_of_no_step(sentence):
+        topic = "what_if"
+    agreed = goal.confidence if goal.verdict == "clear" and goal.objective == objective else 0.0
+    sure = max(agreed, share) if acts else kinds[kind][0]
+    return Judgement(
+        kind=kind, topic=topic, objective=objective, likeliest=share, limits=limits,
+        certainty=round(min(1.0, sure), 4), acts=acts, spoken_of=spoken_of,
+    )  # fmt: skip
+
+
+def _is_of_no_step(sentence: Sentence) -> bool:
+    """Whether no step of power or rate is named: "what would 10 % less power cost?", "what would less delay bring?"."""
+    share_alone = "rate" not in sentence.concepts and {q.kind for q in sentence.quantities} == {"ratio"}
+    return share_alone or "unsupported" in sentence.concepts
+
+
+def _spoken_of(goal: Goal, labels: Mapping[str, float]) -> str | None:
+    """The objective that a sentence speaks of, whatever its kind; None where it speaks of limits or of nothing."""
+    if goal.verdict == "clear":
+        return goal.objective
+    named = {name: labels[name] for name in (*BUILT_IN, _LIMITS)}
+    likeliest = max(named, key=lambda name: named[name])
+    clear = likeliest != _LIMITS and named[likeliest] > max(_NAMED, _CLEAR * sum(named.values()))
+    return likeliest if clear else None
+
+
+def _is_all_said(sentence: Sentence) -> bool:
+    """Whether a sentence is nothing but the words for its wish: "max rate", "P1"."""
+    (start, end), *others = sentence.goal.spans
+    return not others and sentence.plain[start:end] == sentence.plain.strip(" .!。\uff01")
+
+
+def _by_kind(labels: Mapping[str, float]) -> dict[str, tuple[float, str]]:
+    """How likely each other kind is, and its likeliest topic."""
+    found = dict[str, tuple[float, str]]()
+    for kind in _OTHER_KINDS:
+        topics = {label.partition(".")[2]: share for label, share in labels.items() if label.partition(".")[0] == kind}
+        found[kind] = sum(topics.values()), max(topics, key=lambda topic: topics[topic])
+    return found
+
+
+def _kind(sentence: Sentence, kinds: Mapping[str, tuple[float, str]], objective: str, share: float) -> IntentKind:
+    """The likeliest kind; "allocate" only where the objective, which has this share, may be acted on."""
+    other = max(_OTHER_KINDS, key=lambda kind: kinds[kind][0])
+    if moods.is_a_program(sentence.text):
+        return "out_of_scope"
+    sign = len(sentence.units) == 1 and len(sentence.units[0].word) == 1  # a letter, a Chinese character
+    if sign or not sentence.worded:
+        return "clarify"
+    if kinds[other][0] >= share:
+        back = other == "command" and sentence.reading.back  # "bring user 3 back" changes a request, it undoes none
+        return "clarify" if back or kinds[other][0] < _AGREED else cast("IntentKind", other)
+    goal = sentence.goal
+    enough = _ENOUGH if goal.verdict != "clear" else _AGREED if goal.objective == objective else _AGAINST
+    return "allocate" if share >= enough else "clarify"
+
 
 NAME = "offline"
 _MAX_CHARACTERS = 2000
@@ -96,6 +216,7 @@ class _Understanding:
             self._sentence.plain, [*self._reading.masked, *self._reading.counted, *named, *dropped_spans]
         )
         self._judged: Judgement = judge(self._sentence, set(voice.labels))
+        self._fair = [name for name in _FAIR_OBJECTIVES if name in voice.labels]
 
     def intent(self) -> Intent:
         if not self._sentence.units:
@@ -108,7 +229,7 @@ class _Understanding:
         changes = bool(reading.values or self._dropped or reading.back)
         if context.objective is None or not changes or judged.objective_clear:
             return None
-        asked = _ASKED.search(forms.without_a_tag(self._text)) is not None
+        asked = _ASKED.search(moods.without_a_tag(self._text)) is not None
         commands = judged.kind == "command" and judged.topic not in (*CHANGING, "reject")
         if judged.kind in ("question", "out_of_scope") or commands:
             ordered = reading.values.keys() & _ONLY_ORDERED or is_ordered(self._sentence.plain) or self._is_plain()
@@ -150,7 +271,7 @@ class _Understanding:
     def _is_plain(self) -> bool:
         """Whether what looks like a supposition has no word of one, and does not ask: "never over 14 W, clear?"."""
         plain = self._sentence.plain
-        return self._judged.topic == "what_if" and not is_supposed(plain) and not forms.asks_without_a_mark(plain)
+        return self._judged.topic == "what_if" and not is_supposed(plain) and not moods.asks_without_a_mark(plain)
 
     def _not_a_request(self) -> Intent | None:
         """Commands, questions, and what has nothing to do with a cell."""
@@ -162,23 +283,19 @@ class _Understanding:
             topic, details = about(topic, self._sentence)
             if aim is not None and topic == "what_if":
                 details.setdefault("objective", aim)
-            user = self._voice.user(str(details.get("user", "")))
-            told = self._answer.tell("question", f"question.{topic}", judged.certainty, user=user)
-            return dataclasses.replace(told, topic=topic, details=details)
+            return self._answer.question(topic, details, judged.certainty)
         if judged.kind == "command":
             if is_unsure(topic, self._sentence.plain, judged.certainty):
                 said = self._voice.say(f"command.{topic}")
                 return self._answer.ask("unsure_command", judged.certainty, offered=topic, text=said)
             assert topic in COMMANDS
-            details = details_of(topic, self._sentence)
-            told = self._answer.tell("command", f"command.{topic}", judged.certainty)
-            return dataclasses.replace(told, topic=topic, details=details)
+            return self._answer.command(topic, details_of(topic, self._sentence), judged.certainty)
         if judged.kind == "out_of_scope":
             if "unsupported" in self._sentence.concepts:
                 text = self._words_for("unsupported")
-                return self._answer.tell("out_of_scope", "unsupported", judged.certainty, text=text)
+                return self._answer.out_of_scope("unsupported", judged.certainty, text=text)
             key = "hello" if "greeting" in self._sentence.concepts else "out_of_scope"
-            return self._answer.tell("out_of_scope", key, judged.certainty)
+            return self._answer.out_of_scope(key, judged.certainty)
         return None
 
     def _unfulfillable(self) -> Intent | None:
@@ -200,8 +317,7 @@ class _Understanding:
         likely = judged.acts or judged.topic == "rivals"  # "the most for all in all, but nobody goes without"
         wished = judged.objective if likely else goal.objective if goal.verdict == "clear" else ""
         if wished in self._voice.labels and self._lets_somebody_starve(wished):
-            fair = [name for name in _FAIR_OBJECTIVES if name in self._voice.labels]
-            names = {"goal": self._voice.label(wished), "both": self._voice.both(fair, "or")}
+            names = {"goal": self._voice.label(wished), "both": self._voice.both(self._fair, "or")}
             return self._answer.ask("starving", 0.8, self._reading.values, **names)
         agreed = goal.verdict == "clear" and goal.objective == judged.objective
         vague = not agreed and "fairly" in self._sentence.concepts  # "make it fairly fast", "a fairly good speed"
@@ -222,10 +338,9 @@ class _Understanding:
         goal, concepts = self._goal, self._sentence.concepts
         pending: Mapping[str, Constraint] = {} if self._sentence.chances.is_told else self._reading.values
         offered = [name for name in goal.options if name in self._voice.labels or goal.verdict == "opposite"]
-        fair = [name for name in _FAIR_OBJECTIVES if name in self._voice.labels]
         fairly = goal.objective == "proportional_fairness" and goal.verdict == "clear"  # "make it fair"
-        if (concepts & _FAIR_WORDS or fairly) and len(fair) > 1 and goal.verdict != "contradiction":
-            return self._answer.ask("fairness", 0.8, pending, both=self._voice.both(fair, "or"))
+        if (concepts & _FAIR_WORDS or fairly) and len(self._fair) > 1 and goal.verdict != "contradiction":
+            return self._answer.ask("fairness", 0.8, pending, both=self._voice.both(self._fair, "or"))
         if goal.verdict == "contradiction" and len(offered) > 1:
             key = "contradiction" if set(offered) == {"max_rate", "min_power"} else "rivals"
             return self._answer.ask(key, pending=pending, both=self._voice.both(offered))
@@ -248,7 +363,7 @@ class _Understanding:
         holds = context.objective is not None
         whole = bool(words and reading.values)  # a request of its own answers no earlier question
         values, dropped = self._changes(is_answer=context.awaits == "clarification" and not (whole and holds))
-        changed = self._dropped or reading.back or not reading.values or forms.keeps_the_limits(self._sentence.plain)
+        changed = self._dropped or reading.back or not reading.values or moods.keeps_the_limits(self._sentence.plain)
         amends = holds and bool(changed)
         reply = self._voice.restated(objective, values, reading.not_used)
         request = self._answer.allocate(objective, values, evidence, reply, confidence)

@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.base_words import based
 from wirelessagent.language.moods import classes_in
 from wirelessagent.language.text import WORD_OR_SIGN, Span, hashed, unaccented
+from wirelessagent.language.vocabulary import based
 
 if TYPE_CHECKING:
     from wirelessagent.language.sentence import Sentence

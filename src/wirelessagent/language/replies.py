@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, Constraint, Intent, IntentKind
+from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, Constraint, Detail, Intent, IntentKind
 from wirelessagent.model.units import prefixed, reliability
 from wirelessagent.telling.catalogue import has_message, listed, message
 
@@ -101,14 +101,21 @@ class Answer:
         offered: str | None = None, **names: str,
     ) -> Intent:  # fmt: skip
         """A question back: ``pending`` was understood already, ``offered`` is what a plain yes means."""
-        return self._intent(
-            kind="clarify", confidence=confidence, reply=self.voice.say(key, **names), pending=pending or {},
-            offered=offered, asks=key,
-        )  # fmt: skip
+        reply = self.voice.say(key, **names)
+        return self.intent("clarify", confidence, reply, pending=pending or {}, offered=offered, asks=key)
 
-    def tell(self, kind: IntentKind, key: str, confidence: float, **names: str) -> Intent:
-        """A question, a command or something out of scope, with the sentence of a key."""
-        return self._intent(kind=kind, confidence=confidence, reply=self.voice.say(key, **names))
+    def command(self, topic: str, details: Mapping[str, Detail], confidence: float) -> Intent:
+        """A command of a topic."""
+        return self.intent("command", confidence, self.voice.say(f"command.{topic}"), topic=topic, details=details)
+
+    def question(self, topic: str, details: Mapping[str, Detail], confidence: float) -> Intent:
+        """A question of a topic."""
+        reply = self.voice.say(f"question.{topic}", user=self.voice.user(str(details.get("user", ""))))
+        return self.intent("question", confidence, reply, topic=topic, details=details)
+
+    def out_of_scope(self, key: str, confidence: float, **names: str) -> Intent:
+        """What asks for nothing that can be done, with the sentence of a key."""
+        return self.intent("out_of_scope", confidence, self.voice.say(key, **names))
 
     def allocate(
         self, objective: str, values: Mapping[str, Constraint], evidence: Mapping[str, str], reply: str,
@@ -117,13 +124,15 @@ class Answer:
         """A request: an objective with constraints, and the words that each came from."""
         ordered = {name: values[name] for name in CONSTRAINTS if name in values}
         kept = {name: words for name, words in evidence.items() if name not in CONSTRAINTS or name in ordered}
-        return self._intent(
-            kind="allocate", objective=objective, constraints=ordered, confidence=confidence, reply=reply, evidence=kept
-        )
+        return self.intent("allocate", confidence, reply, objective=objective, constraints=ordered, evidence=kept)
 
-    def _intent(self, **fields: Any) -> Intent:
-        blank: dict[str, Any] = {"objective": None, "constraints": {}, "evidence": {}}
-        return Intent(language=self.voice.language, recogniser=self.recogniser, **(blank | fields))
+    def intent(self, kind: IntentKind, confidence: float, reply: str, **fields: Any) -> Intent:
+        """An intent with a reply, and with nothing stated but in its ``fields``."""
+        given: dict[str, Any] = {"objective": None, "constraints": {}, "evidence": {}, **fields}
+        return Intent(
+            kind=kind, language=self.voice.language, confidence=confidence, reply=reply, recogniser=self.recogniser,
+            **given,
+        )  # fmt: skip
 
 
 def limits_in_words(limits: Mapping[str, Constraint], language: str) -> str:

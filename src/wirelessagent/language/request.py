@@ -11,8 +11,14 @@ from typing import TypeAlias
 from wirelessagent import plugins
 from wirelessagent.language import acts
 from wirelessagent.language.acts import Act, Everybody, Named, Whom
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint, checked_constraints
-from wirelessagent.language.intent_acts import stated
+from wirelessagent.language.intent import (
+    EVERYBODY,
+    FIGURES_OF_USERS,
+    LISTS_OF_USERS,
+    Constraint,
+    checked_constraints,
+    stated,
+)
 
 ASSUMED_MIN_RATE_BPS = 200e3
 """Rate promised to each user where the least power is asked for and no rate was named."""
@@ -145,7 +151,7 @@ def _lists_between(before: Mapping[Key, float], after: Mapping[Key, float]) -> I
         tuple(user for kind, user in figures if kind == name)
         for name in ("users", "leave_out") for figures in (before, after)
     )  # fmt: skip
-    if {*served} != {*serves}:
+    if {*served} != {*serves} or (serves and not {*out} <= {*outs}):
         yield acts.Serve(whom=Named(serves), alone=True) if serves else acts.Serve(whom=Everybody())
         out = ()
     back, gone = (tuple(user for user in some if user not in others) for some, others in ((out, outs), (outs, out)))

@@ -8,11 +8,9 @@ from typing import TYPE_CHECKING, cast
 
 from wirelessagent import plugins
 from wirelessagent.language import goals
-from wirelessagent.language.base_words import aligned, is_listed, language_of
 from wirelessagent.language.constraints import read_constraints
-from wirelessagent.language.corrected import without_corrected
 from wirelessagent.language.goals import Goal
-from wirelessagent.language.mentions import mentions
+from wirelessagent.language.mentions import mentions, without_corrected
 from wirelessagent.language.moods import classes_in
 from wirelessagent.language.order_model import Frame, frame_of, shipped_order_model
 from wirelessagent.language.quantities import parse_quantities
@@ -20,7 +18,17 @@ from wirelessagent.language.sentence_model import START, Chances, Word, shipped_
 from wirelessagent.language.stated import Reading
 from wirelessagent.language.text import WORD_OR_SIGN, Span, clauses, is_chinese, normalise, overlaps, unaccented
 from wirelessagent.language.units import unit_at
-from wirelessagent.language.vocabulary import Found, OwnWords, Unit, Vocabulary, respelt, units_of
+from wirelessagent.language.vocabulary import (
+    Found,
+    OwnWords,
+    Unit,
+    Vocabulary,
+    aligned,
+    is_listed,
+    language_of,
+    respelt,
+    units_of,
+)
 from wirelessagent.model.objective import Objective
 
 if TYPE_CHECKING:
@@ -44,7 +52,7 @@ class Sentence:
         self.text, self.plain, self.language = text, normalise(said), language_of(text)
         self._own, self._names, self._max_power_w, self.quantities = own, names, max_power_w, parse_quantities(said)
         self.reading: Reading = read_constraints(
-            text, self.plain, self.quantities, names=names, max_power_w=max_power_w
+            said, self.plain, self.quantities, names=names, max_power_w=max_power_w
         )
         self.units: list[Unit] = units_of(respelt(self.plain), self.reading.masked)
         self.found: list[Found] = _vocabulary(own).find(self.units)

@@ -3,27 +3,168 @@
 What it says of the whole cell in words is read here: blocks ("in pairs"), shares of the power ("half"), how many users.
 Counts describe the channel where all users are meant ("for our 8 users"); a part of the users, and a half of something,
 raise a doubt.
+
+So does a number that no rule has read, because a figure that is dropped is a wish ignored: every digit, fraction and
+superscript is either part of a quantity, of a count that describes the cell, of a name ("P1", "5G") or left over
+("10^5", "3 dB", "10 joules"). The same holds for number words that cannot be mere idiom ("half of", "ten volts"; not
+"a", "one", "十分").
 """
 
 from __future__ import annotations
 
+import functools
 import re
-from collections.abc import Mapping, Sequence
+import unicodedata
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from decimal import Decimal
 
-from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Constraint
-from wirelessagent.language.leftovers import POWER_NOUNS
 from wirelessagent.language.mentions import BY_PLACE, PLACED
 from wirelessagent.language.number_words import cardinals, german_value, plain_word
+from wirelessagent.language.numerals import Number, factors, numbers
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.text import Phrases, Span, clause_end, clause_start, is_chinese, is_within, overlaps
-from wirelessagent.language.word_tables import either, languages_with, table
+from wirelessagent.language.units import unit_at
+from wirelessagent.language.word_tables import deferred, either, languages_with, table, words_of
 
-_CARRIER = (
-    r"(?:sub-?carriers?|tones?|carriers?|rbs?|resource blocks?|subportadoras?|sous-porteuses?|"
-    r"(?:unter|sub)träger[ns]?)"
+# Generations, picture sizes and the like: they look like figures and describe.
+_NAMES = deferred(
+    r"(?i)(?<![A-Za-z0-9.])(?:[2-6]G|[248]K|(?:720|1080|1440|2160)p|wi-?fi\s?[4-7]|24/7)(?![A-Za-z0-9])"
+    r"(?!\s*(?:each|per|apiece|every|for (?:each|every))\b)"
 )
+_SPELL, _MONTH = (
+    rf"(?:{'|'.join(words_of('figures', 'times', name))})(?![A-Za-zÀ-ÿ{end}])"
+    for name, end in (("units", "/"), ("months", ""))
+)
+_TIMES = Phrases(
+    rf"(?<![\w.,])[0-9]{{1,3}}(?::[0-9]{{2}}|[.,]5)?\s?{_SPELL}|(?<![\w.,])[0-9]{{1,2}}[:：][0-9]{{2}}(?![0-9])|"
+    rf"(?<![\w.,])[0-9]{{1,2}}(?:\.|st|nd|rd|th|er)?\s+(?:de\s+|of\s+)?{_MONTH}|"
+    r"(?<![\w.,])(?:19|20)[0-9]{2}(?=\s*(?:$|[,.;:!?)]|年))|"
+    rf"(?:{either('figures', 'times', 'from')}) [0-9]{{1,2}}"
+    rf"(?=(?: h)? (?:{either('figures', 'times', 'to')}) [0-9]{{1,2}}\s?{_SPELL})|"
+    r"\b(?:half an?|a half|next half) hour\b|\blas? [0-9]{1,2} de la (?:mañana|tarde|noche|madrugada)|"
+    r"\b(?:for|in|within|after|until|during|next|last|past|every)\s+(?:the\s+)?(?:next\s+|last\s+)?"
+    r"(?:two|three|four|five|six|ten|twelve|thirty)\s+"
+    r"(?:hours?|minutes?|mins?|days?|weeks?|months?|years?)\b|[0-9一二两三四五六七八九十半]{1,3}(?:点钟?|小时|分钟|"
+    r"个小时|天|周|个月|年)(?!\s*[w瓦])|"
+    r"(?:周|星期|礼拜)[一二三四五六日天]|[一二三四五六七八九十0-9]{1,2}月|[一二三四五六七八九十0-9]{1,2}[日]"
+)
+_OF_THE_YEAR = Phrases(r"\b(?:this|last|next|each|every|per|the) quarter\b", "quarter")
+_VAGUE = deferred(
+    r"(?i)(?<!as )\b(?:few|several|couple|handful|pair|dozens?|hundreds|thousands|some|lots|plenty|"
+    r"(?<=a )number)\s+(?:of\s+)?"
+)
+_SETS_A_LIMIT = deferred(rf"(?i)(?:{either('figures', 'bounds', 'names')}|[=:<>≤≥])\s*$")
+_IS_GIVEN = deferred(r"\s*(?:→|[-=]>|[=:])\s*[0-9.]")  # "floors: 1 → 300k, 2 → 1M"
+_UNIT_OF_ANOTHER_KIND = deferred(
+    r"(?i)\s?(?:[kMG](?![^\W\d_])|dB|J|[km]?A|joules?|julios?|amps?|amperes?|decibels?)(?![^\W\d_])|\s*[千兆毫]?(?:焦|安培|分贝)"
+)
+_ALONE_AHEAD = deferred(r"(?i)(?:^|[,;:.!?\uff0c\uff1b。])\s*(?:with|at|on|con|a|avec|à|mit|bei|用)?\s*$|\bwith\s+$")
+_ALONE_BEHIND = deferred(r"\s*(?:$|[,;:.!?\uff0c\uff1b。])")
+_ALL_IDIOMS = (_NAMES, _TIMES, _OF_THE_YEAR)
+_ELECTRIC = r"[km]?V|volts?|voltios?|[km]?Wh|[kMG]?Hz|hertz"
+_RATING = deferred(  # what a device has, and a limit only where nothing else is said; abbreviations, "43 dbx"
+    r"\s?-?(?:(?![A-Z]{1,4}s\b)(?i:[bcdfghjklmnpqrstvwxz]{2,5})|"
+    rf"(?i:{_ELECTRIC}|(?:kilo|mega|giga)hertz))(?![^\W\d_])|\s*[千兆毫]?(?:伏|赫)"
+)
+FOREIGN_UNIT = deferred(  # no user's number stands before one
+    rf"(?i)\s?-?(?:{_ELECTRIC}|(?-i:[km]?A)|J|joules?|julios?|dB|°|[kMGT]?B|bits?|bytes?|"
+    r"kilo\w+|mega\w+|giga\w+|cm|mm|km|m²|ms|s|secs?|se[cg]\w{3,6}|sekunden?|min|minut\w+|h|grad|degrees?|percent)"
+    r"(?![^\W\d_])"
+)
+_WHOLE = deferred(r"[0-9]+")
+_IDIOMS = frozenset(words_of("figures", "numbers", "idioms"))
+POWER_NOUNS = "|".join(words_of("figures", "shared", "power"))
+_OF_POWER = deferred(rf"(?i)[\s-](?:{POWER_NOUNS})\b")  # "halbe Leistung"
+_CHINESE_FIGURE = deferred(r"[二三四五六七八九]|十(?!分)|两(?=\s*[个名位台倍])")
+_TO_THE_RIGHT = deferred(r"[^\s,;:!?\uff0c\uff1b。、)]*(?:\s*[\^*×·/+÷x]\s*[^\s,;]+)*(?:\s?(?:of\s+)?[A-Za-zμΩ/]+)?")
+
+
+def unread(plain: str, covered: Sequence[Span]) -> Span | None:
+    """The first number of a normalised text that lies in none of the covered spans, with the word that follows it.
+
+    >>> text = "max rate, 43 dB"
+    >>> start, end = unread(text, [])
+    >>> text[start:end]
+    '43 dB'
+    """
+    known = [*covered, *idioms(plain)]
+    places = sorted(place for place in _numbers_at(plain) if not overlaps((place, place + 1), known))
+    if not places:
+        return None
+    match = _TO_THE_RIGHT.match(plain, places[0])
+    end = match.end() if match is not None else places[0]
+    return places[0], max(end, places[0] + 1)
+
+
+@functools.lru_cache(maxsize=64)
+def idioms(plain: str) -> tuple[Span, ...]:
+    """Where numbers are part of a name, a time or a turn of phrase."""
+    return tuple(
+        match.span()
+        for pattern in _ALL_IDIOMS
+        for match in pattern.finditer(plain)
+        if not (pattern is _TIMES and "may" in plain[slice(*match.span())])  # no month
+    )
+
+
+def is_all_said(plain: str, start: int, end: int) -> bool:
+    """Whether a clause says nothing but the figure at [start, end), as limits are said: "max rate, 10 Wh"."""
+    return _ALONE_AHEAD.search(plain, 0, start) is not None and _ALONE_BEHIND.match(plain, end) is not None
+
+
+def loose_numbers(plain: str, covered: Sequence[Span]) -> list[Number]:
+    """The numbers and multiplying words of a normalised text that lie in none of the covered spans.
+
+    Names ("5G") and mere idiom ("one") are none.
+    """
+    taken = [*covered, *idioms(plain)]
+    found: list[Number] = []
+    candidates = [*factors(plain), *(n for n in numbers(plain) if n.form == "digits" or _is_figure(plain, n))]
+    for number in sorted(candidates, key=lambda each: each.start - each.end):  # "one and a half" before "half"
+        number = _cut(plain, number, taken)
+        if not overlaps((number.start, number.end), taken):
+            found.append(number)
+            taken.append((number.start, number.end))
+    return sorted(found, key=lambda number: number.start)
+
+
+def _cut(plain: str, number: Number, taken: Sequence[Span]) -> Number:
+    """The number without a part that belongs to somebody's name: "权重3,9号用户" holds 3, not 3.9."""
+    match = _WHOLE.match(plain, number.start)
+    if match is None or not any(match.end() < start < number.end for start, _ in taken):
+        return number
+    return Number(value=Decimal(match.group()), start=number.start, end=match.end(), form=number.form)
+
+
+def may_be_a_limit(plain: str, number: Number) -> bool:
+    """Whether a number stands where a limit would, or before a unit that no limit here has ("43 dB", "10 joules")."""
+    rating = _RATING.match(plain, number.end)
+    if rating is not None and is_all_said(plain, number.start, rating.end()):
+        return True
+    if _UNIT_OF_ANOTHER_KIND.match(plain, number.end) is not None:
+        return True
+    return _SETS_A_LIMIT.search(plain, 0, number.start) is not None and _IS_GIVEN.match(plain, number.end) is None
+
+
+def _numbers_at(plain: str) -> Iterator[int]:
+    yield from (place for place, letter in enumerate(plain) if unicodedata.category(letter).startswith("N"))
+    yield from (number.start for number in numbers(plain) if _is_figure(plain, number))
+    for match in _VAGUE.finditer(plain):
+        if unit_at(plain, match.end()) is not None:
+            yield match.start()
+
+
+def _is_figure(plain: str, number: Number) -> bool:
+    """Whether a number in words stands for an amount, not for a turn of phrase."""
+    if number.value is None:
+        return False
+    if number.form in ("words", "foreign"):
+        return plain[number.start : number.end].lower() not in _IDIOMS or _OF_POWER.match(plain, number.end) is not None
+    return number.form == "chinese" and _CHINESE_FIGURE.search(plain, number.start, number.end + 1) is not None
+
+
 _CHANGED_BY = deferred(rf"(?i)(?:{either('figures', 'one', 'changed_by')})\s*(?:about|around|roughly)?\s*$")
 _CHANGED_BEHIND = deferred(rf"(?i)\s*(?:{either('figures', 'one', 'changed_behind')})(?!\w)")
 _ALL = deferred(r"(?i)\b(?:all|all of|all the|every one of)\s*(?:the\s+|our\s+|these\s+)?$|(?:所有|全部)的?\s*$")
@@ -31,12 +172,10 @@ _DESCRIBED_BEFORE = deferred(rf"(?i)(?:^|{either('figures', 'users', 'ahead_of_a
 _DESCRIBED_AFTER = deferred(rf"(?i)\s*(?:$|(?:{either('figures', 'users', 'behind_all')}))")
 _COUNT = rf"(?:[0-9]+|{'|'.join(cardinals(2, 10))})"
 COUNTED_USERS = deferred(
-    rf"(?i)(?<![\w.,/^*-]){_COUNT} (?:of them|of the users|"
-    r"(?:waiting |idle |busy |active )?users|ues|subscribers|devices|sensors|terminals|subcarriers|channels|usuarios|"
-    r"abonados|clientes|utilisateurs|abonnés|nutzern?|teilnehmern?|kunden)\b|[0-9两二三四五六七八九十]+\s*个(?:用户|"
-    r"设备|传感器|子载波)"
+    rf"(?i)(?<![\w.,/^*-]){_COUNT} (?:{either('figures', 'users', 'counted')})|"
+    r"[0-9两二三四五六七八九十]+\s*个(?:用户|设备|传感器|子载波)"
 )
-_CARRIERS = deferred(rf"(?i){_CARRIER}|channels|子载波")
+CARRIERS = Phrases(either("figures", "bounds", "carriers"))
 _SOME_USERS, _ONE_OF = (Phrases(either("figures", "users", name, **PLACED)) for name in ("some", "one_of"))
 _OF_OURS = r"(?:\w+\s+){0,3}?(?:power|watts?|wattage|rates?|speeds?|throughput|bandwidth|budget|limit)\b"
 _HALVED = Phrases(either("figures", "one", "halved", ours=_OF_OURS), marks="half halve third quarter 减半 一半 翻倍")
@@ -44,20 +183,14 @@ _OTHERS_HALVED = Phrases(
     r"(?:其余|其他|别人|剩下|剩余|旁人|另外)[^,\uff0c。0-9]{0,5}(?:一半|减半|翻倍|双倍|加倍)",
     marks="一半 减半 翻倍 双倍 加倍",
 )
-_POWER = rf"(?:maximalleistung|{POWER_NOUNS}|budget|watts|wattage|presupuesto)\b(?:\s+(?:budget|limit))?"
-_MOST = (
-    r"(?:(?:max|máx)\w*\.?|limitée?|limitada|begrenzt|limited|at|to|of|auf|à|a|al|is|=|<=|≤|:|at most|up to)?\s*"
-    r"(?:(?:max|to|auf|à|a|al|au|at)\.?\s*)?"
-)
-_FULL = (
-    r"(?:\s++|of|de|d'|the|our|its|full|max|maximum|total|available|allowed|transmit|tx|la|el|del|notre|nuestra|der|die|"
-    r"unserer|vollen|maximalen)*+"
-)
+_LIMITED, _TO, _FULL = ("|".join(words_of("figures", "shared", name)) for name in ("limited", "to", "full"))
+_MOST = rf"(?:(?:max|máx)\w*\.?|{_LIMITED}|=|<=|≤|:)?\s*(?:(?:max|{_TO})\.?\s*)?"
+_BUDGET = "|".join(words_of("figures", "shared", "power", "budgets"))
 _SHARED = (
     deferred(
         rf"(?i)(?:\b(?:p_?max|(?:max\w*\.?\s+)?(?:{POWER_NOUNS}))\s*{_MOST}|功率(?:用|压|降|限制|上限)?[到在为是]?)$"
     ),
-    deferred(rf"(?i){_FULL}\s*{_POWER}|的?(?:发射|总)?(?:功率|预算)(?!放大)"),
+    deferred(rf"(?i)(?:\s++|{_FULL})*+(?:{_BUDGET})\b(?:\s+(?:budget|limit))?|的?(?:发射|总)?(?:功率|预算)(?!放大)"),
 )
 _TOGETHER: dict[str, int] = {
     word: size
@@ -65,18 +198,15 @@ _TOGETHER: dict[str, int] = {
     for word, size in table("figures", language).get("together", {}).items()
 }
 _TOGETHER_WORDS = "|".join(word if is_chinese(word) else rf"\b{word}\b" for word in _TOGETHER)
+_CARRIER = "|".join(words_of("figures", "grouped", "carriers"))
 _BLOCKS = Phrases(
     rf"(?P<ahead>{_TOGETHER_WORDS})(?=\s*(?:(?:of|de|von|的)\s*)?(?:{_CARRIER}|子载波))|"
     rf"(?:{_CARRIER}|子载波)(?:\s+\w+){{0,3}}?\s*(?P<behind>{_TOGETHER_WORDS})"
     r"|\b(?P<fold>[a-zäöüß]{3,})er-?(?:gruppen?|blöcken?|blöcke|päckchen|packs?|bündeln?)\b",
     marks=" ".join({word.split()[-1] for word in _TOGETHER} | {"gruppe", "blöck", "päck", "pack", "bündel"}),
 )
-_GROUP = (  # nouns and verbs that say of a number beside them that it is the size of a group
-    rf"(?:{_CARRIER}|(?:resource[- ])?(?:group|block|bundle|chunk|cluster|pack|rb)(?:s|ed|ing)?|rbgs?|p?rbs?|size|"
-    r"bloques?|blocs?|grupos?|groupes?|paquet(?:e?s)?|recursos|ressources|tamaño|taille|"
-    r"(?:ressourcen)?(?:blöcken?|block)(?:größe)?|gruppen?(?:größe)?)"
-)
-_JOINT = r"(?:of|with|in|into|by|per|an?|each|the|adjacent|neighbouring|de|du|von|zu|à|aus|mit|je|pro|por|par|en)"
+_GROUP = f"(?:{'|'.join(words_of('figures', 'grouped', 'carriers', 'groups'))})"
+_JOINT = f"(?:{'|'.join(words_of('figures', 'grouped', 'joints'))})"
 _GROUPED = (
     deferred(
         rf"(?i)\b(?:in\s+)?{_GROUP}\b(?:[\s:=-]+(?:{_GROUP}|{_JOINT})\b)*[\s:=-]*$|(?:[每按以]|资源块|子载波|块|大小|[为是=])+$"
@@ -204,7 +334,7 @@ def take_counts(reading: Reading, recounted: Sequence[Span], allotted: Sequence[
         if _describes_all(*_clause_around(reading, *match.span())):
             reading.not_used.append(words)
         else:
-            reading.doubt("not_understood" if _CARRIERS.search(words) else "some_users", text=words)
+            reading.doubt("not_understood" if CARRIERS.search(words) else "some_users", text=words)
 
 
 def doubt_parts(reading: Reading, allotted: Sequence[Span]) -> None:

@@ -14,8 +14,7 @@ import zlib
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TypeAlias
 
-from wirelessagent.language.deferred import deferred
-from wirelessagent.language.word_tables import words_of
+from wirelessagent.language.word_tables import any_word, deferred
 
 _SAME_LENGTH = {
     # Full-width ASCII, but for the comma and the semicolon: they never stand inside a number.
@@ -37,15 +36,16 @@ Span: TypeAlias = tuple[int, int]
 """Characters [start, end) of a text."""
 
 CJK = "\u3400-\u9fff\uf900-\ufaff"
-WORD_OR_SIGN = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s\ud800-\udfff]")
-"""A word, a Chinese character, or a sign."""
+WORD = rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?"
+"""A word, or a Chinese character."""
+WORD_OR_SIGN = deferred(rf"{WORD}|[^\w\s\ud800-\udfff]")
 
-USER_NOUN = (
-    rf"(?:{'|'.join(words_of('figures', 'users', 'nouns'))})"
-    r"(?:\s*(?:number|nummer|número|numéro|no\.?|nr\.?|n°|nº|#))?"
-)
+USER_NOUN = any_word("figures", "users", "nouns") + r"(?:\s*(?:number|nummer|número|numéro|no\.?|nr\.?|n°|nº|#))?"
 
-NUMBERED_USERS = rf"\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|and|or|y|et|und|oder|ou|o|&|/)\s*)*$"
+AND = any_word("figures", "numbers", "joins")
+"""What joins two of a kind, in the languages that write it apart."""
+
+NUMBERED_USERS = rf"\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|{any_word('figures', 'numbers', 'joins', 'ors')}|&|/)\s*)*$"
 """What stands before a number that names a user: "user ", "users 1 and "."""
 
 CLAUSE_END = r"[,;:!?()\n\uff0c\uff1b。、…—]|\.(?![0-9])"

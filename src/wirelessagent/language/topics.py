@@ -10,18 +10,17 @@ import re
 from collections.abc import Mapping
 
 from wirelessagent import plugins
-from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Constraint, Detail
 from wirelessagent.language.moods import places
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.sentence import Sentence
-from wirelessagent.language.word_tables import either, words_of
+from wirelessagent.language.word_tables import deferred, either, words_of
 from wirelessagent.telling.catalogue import called, languages
 
 _NUMBER = deferred(
-    r"(?i)(?:numbers?|turn|no\.?|#|request|entry|step|run|record|第|轮)\s*(?P<n>[0-9]+|[一二三四五六七八九十]+)|"
-    r"\bhistory\s+(?:show\s+)?(?P<m>[0-9]+)"
+    rf"(?i)(?:{'|'.join(map(re.escape, words_of('figures', 'asked', 'turns')))})\s*"
+    r"(?P<n>[0-9]+|[一二三四五六七八九十]+)|\bhistory\s+(?:show\s+)?(?P<m>[0-9]+)"
 )
 _FORMATS = (("tmf921", deferred(r"(?i)tmf\s*-?921")), ("ts28312", deferred(r"(?i)28\.?312|3gpp")))
 _WITH = deferred(
@@ -33,7 +32,7 @@ _AS = deferred(
     r"(?:an?\s+)?([a-z][\w.-]*)[\s.!?]*$|"
     r"(?:导出|保存)(?:为|成|到)\s*([A-Za-z][\w.-]*)\s*$"
 )
-_MORE = deferred(r"(?i)\b(?:more|extra|additional|further|another)\s+")
+_MORE = deferred(rf"(?i)(?:{either('figures', 'asked', 'more')})\s+")
 _FEWER, _EACH, _MORE_USERS, _HALF_MISSING, _GONE, _NO_TOOL, _NO_FORMAT = (
     deferred(f"(?i){either('figures', 'asked', name)}")
     for name in ("fewer", "each", "more_users", "half_missing", "gone", "no_tool", "no_format")
@@ -49,14 +48,13 @@ def about(topic: str, sentence: Sentence) -> tuple[str, dict[str, Detail]]:
 
 def details_of(topic: str, sentence: Sentence) -> dict[str, Detail]:
     """The figures and names of a question or command of this topic."""
-    reading = sentence.reading
+    named = sentence.reading.named
+    user: dict[str, Detail] = {"user": named[0]} if named else {}
     if topic in ("why_user", "users", "prices"):
-        user = {"user": reading.named[0]} if reading.named else {}
         return user if user or topic != "users" else ranked(sentence.plain)
     if topic == "what_if":
         return _what_if(sentence)
     if topic == "step":
-        user: dict[str, Detail] = {"user": reading.named[0]} if reading.named else {}
         steps = _step(sentence)
         return {**steps, **(user if "rate_bps" in steps else {})}
     if topic == "compare":
@@ -64,13 +62,21 @@ def details_of(topic: str, sentence: Sentence) -> dict[str, Detail]:
         return {"with": " ".join(tools_named(sentence.plain, "method", "repairer")) or unknown or "last"}
     if topic == "history":
         match = _NUMBER.search(sentence.plain)
-        word = (match["n"] or match["m"]) if match is not None else ""
-        number = int(word) if word.isdigit() else int(chinese_value(word) or 0) if word else 0
-        return {"number": float(number)} if number else {}
+        number = 0.0 if match is None else number_of(match["n"] or match["m"])
+        return {"number": number} if number else {}
     if topic == "export":
         known = next((name for name, pattern in _FORMATS if pattern.search(sentence.plain)), "")
         return {"format": known or _named_in(_AS, _NO_FORMAT, sentence.plain) or "ts28312"}
     return {}
+
+
+def number_of(word: str) -> float:
+    """The number that digits or a Chinese numeral stand for; 0 where it stands for none.
+
+    >>> number_of("12"), number_of("十二")
+    (12.0, 12.0)
+    """
+    return float(word) if word.isdecimal() else float(chinese_value(word) or 0)
 
 
 def ranked(plain: str) -> dict[str, Detail]:

@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from typing import Literal, TypeAlias
 
-from wirelessagent.language.deferred import deferred
 from wirelessagent.language.vocabulary import one_edit
+from wirelessagent.language.word_tables import any_word, deferred
 from wirelessagent.model.units import dbm_to_w
 
 UnitKind: TypeAlias = Literal["power", "rate", "ratio"]
@@ -27,10 +27,9 @@ _PREFIXES = {
     "T": 12, "t": 12, "tera": 12, "太": 12,
 }  # fmt: skip
 
-_SECOND = r"(?:(?:seconds?|secs?|segundos?|seg|secondes?|sekunden?|sek|s)(?![A-Za-z0-9_])|秒钟?)"
 _PER_SECOND = (
-    r"(?:\s*(?:/|\b(?:per|an?|each|every|p|por|al|cada|par|à\s+la|la|pro|je|in\s+der|die)\b|每)\s*"
-    rf"{_SECOND}|ps(?![A-Za-z0-9_]))"
+    rf"(?:\s*(?:/|\b{any_word('figures', 'units', 'per', 'per_second')}\b|每)\s*"
+    rf"(?:{any_word('figures', 'units', 'second')}(?![A-Za-z0-9_])|秒钟?)|ps(?![A-Za-z0-9_]))"
 )
 _END = r"(?![A-Za-z0-9])"
 
@@ -61,20 +60,20 @@ _BIT_ZH = deferred(
     rf"(?P<per>(?i:{_PER_SECOND}|ps{_END}))?"
 )
 _RATIO = deferred(
-    rf"%|(?i:(?:percent|per\s+cent|pct|prozent(?:ig(?:e[rnms]?)?)?|por\s+ciento|pour\s+cent|por\s+cien){_END})|"
-    rf"(?P<thousandth>‰|(?i:(?:per\s+mille?|per\s+thousand|promille|por\s+mil|pour\s+mille){_END}))"
+    rf"%|(?i:{any_word('figures', 'units', 'percent')}{_END})|"
+    rf"(?P<thousandth>‰|(?i:{any_word('figures', 'units', 'thousandth')}{_END}))"
 )
 _NOT_A_RATE_OR_POWER = deferred(
-    r"(?i)(?:/|每)\s?(?!user|ue|person|device|sensor|人|用户|subscriber|customer|head|each|sub-?carrier|sub-?channel|sc\b|tone|carrier|"
-    r"ch\b|usuario|utilisateur|nutzer|subportadora|sous-porteuse|(?:unter|sub)träger|子载波)(?=[A-Z子])"
+    rf"(?i)(?:/|每)\s?(?!{any_word('figures', 'units', 'per_whom')}|sc\b|ch\b|子载波)(?=[A-Z子])"
     r"|\s*(?:/|(?:per|pro|par|por)\s)\s*(?:\w?hz|hertz|megahertz|kilohertz|joules?|j|watts?|w|hours?|symbol|bit|"
     r"m2|m²|kg)\b"
     r"|[\s·-]*(?:h|hrs?|hours?|horas?|heures?|stunden?)\b|小时|\s*/?每?(?:赫兹?|焦耳?)"
 )
 
 _MISSPELT = deferred(r"[A-Za-zÀ-ÿ]{3,12}(?:/s(?![A-Za-z]))?(?![A-Za-z0-9])")
-_PREFIXED = [f"{prefix}{core}" for prefix in ("kilo", "mega", "giga") for core in ("bit", "bits", "byte", "bytes")]
-_A_SECOND = [f"{prefix}{core}/s" for prefix in "kmg" for core in ("bit", "bits", "byte", "bytes")]
+_CORES = ("bit", "bits", "byte", "bytes")
+_PREFIXED = [f"{prefix}{core}" for prefix in ("kilo", "mega", "giga") for core in _CORES]
+_A_SECOND = [f"{prefix}{core}/s" for prefix in "kmg" for core in _CORES]
 _SHORT = ("kbps", "mbps", "gbps", "dbm", "dbw")
 _POWERS = [f"{prefix}{core}" for prefix in ("", "milli", "kilo", "mega") for core in ("watt", "watts")]
 _SPELT = (*_POWERS, "vatio", "vatios", *_PREFIXED, *_A_SECOND, *_SHORT)
@@ -104,8 +103,8 @@ class Unit:
 
 
 _PER_ANOTHER_TIME = deferred(
-    r"(?i)\s*(?:per|an?|every|each|/|par|pro|por|al?|je|cada|chaque|jede)\s*(?:minutes?|min|hours?|h|days?|weeks?|months?|"
-    r"minutos?|horas?|heures?|jours?|mois|stunden?|tage?|woche|monat|d[ií]as?|mes)\b|\s*[/每]?每(?:分钟?|小时|天|周|月)"
+    rf"(?i)\s*(?:/|{any_word('figures', 'units', 'per', 'per_other')})\s*"
+    rf"{any_word('figures', 'units', 'other_times')}\b|\s*[/每]?每(?:分钟?|小时|天|周|月)"
 )
 _OF_ANOTHER_TIME = deferred(r"每个?(?:分钟?|小时|天|周|月)[^,\uff0c。;]{0,6}$")
 _GAP = deferred(r"\s?个\s?|-|\+?\s{0,2}")
@@ -188,7 +187,8 @@ def _unit_of_bits(match: re.Match[str]) -> Unit | None:
     is_bytes = not shouted and (core == "B" or core.lower().startswith(("byte", "o", "字节")))
     earlier = "每秒" in match.string[max(0, match.start() - 12) : match.start()]
     per_second = earlier or groups.get("per") is not None or groups.get("ps") is not None
-    if not per_second and (is_bytes or not prefix):
+    counted = match.string[max(0, match.start() - 1) : match.start()] in ("千", "万", "百万")  # "800千比特"
+    if not per_second and (is_bytes or not (prefix or counted)):
         return None
     factor = _scale(prefix, binary=bool(groups.get("binary"))) * (8 if is_bytes else 1)
     doubtful = groups["core"] == "B" and match.group().endswith("S")

@@ -1,4 +1,8 @@
-"""Vocabulary as data: one folder a subject, one TOML file a language, read once."""
+"""Vocabulary as data: one folder a subject, one TOML file a language, read once; and the patterns made of it.
+
+Patterns are compiled when they are first used: there are more than two hundred, a quarter of the time that a first
+sentence takes to compile, and a sentence needs a fifth of them.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +11,33 @@ import re
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
+
+
+class _Deferred:
+    """Stands for the compiled expression and hands on its methods, which it keeps once they were asked for."""
+
+    def __init__(self, pattern: str, flags: int) -> None:
+        self.pattern, self._flags = pattern, flags
+
+    @functools.cached_property
+    def _compiled(self) -> re.Pattern[str]:
+        return re.compile(self.pattern, self._flags)
+
+    def __getattr__(self, name: str) -> Any:
+        found = getattr(self._compiled, name)
+        setattr(self, name, found)
+        return found
+
+
+def deferred(pattern: str, flags: int = 0) -> re.Pattern[str]:
+    """A regular expression for its methods and its text; what wants the compiled object itself needs re.compile.
+
+    >>> deferred(r"[0-9]+ W").findall("10 W and 5 W"), deferred("a+").pattern
+    (['10 W', '5 W'], 'a+')
+    """
+    return cast("re.Pattern[str]", _Deferred(pattern, flags))
+
 
 _FOLDER = Path(__file__).parent
 _PART = re.compile(r"\{([a-z_]+)\}")
@@ -39,6 +69,17 @@ def words_of(subject: str, section: str, *names: str) -> tuple[str, ...]:
     tables = [table(subject, language).get(section, {}) for language in languages_with(subject)]
     found = dict.fromkeys(word for each in tables for name in names for word in each.get(name, ()))
     return tuple(sorted(found, key=len, reverse=True))
+
+
+def any_word(subject: str, section: str, *names: str) -> str:
+    """A regular expression for any of the words that the files of all languages list by these names, the longest first.
+
+    A space is any blanks; whether words are whole, the pattern around says.
+
+    >>> any_word("figures", "users", "as_far_as")
+    "(?:hasta\\\\s+el|jusqu'au|jusqu'à|bis\\\\s+zu|up\\\\s+to|au)"
+    """
+    return f"(?:{'|'.join(words_of(subject, section, *names))})".replace(" ", r"\s+")
 
 
 def either(subject: str, section: str, name: str, **parts: str) -> str:

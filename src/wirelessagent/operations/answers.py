@@ -155,7 +155,7 @@ class ReportAnswer(Record):
 
     @classmethod
     def of(cls, report: Report) -> ReportAnswer:
-        from wirelessagent.telling.facts.proof import predicted_metrics
+        from wirelessagent.telling.facts.case import predicted_metrics
 
         return cls(
             predicted=MetricsAnswer.of(report.predicted),

@@ -16,8 +16,8 @@ from pydantic import Field
 from wirelessagent import __version__
 from wirelessagent.experiments.evaluate_intents import Figures, Understood, evaluate, figures_of, read_meant
 from wirelessagent.experiments.evaluation import make_folder
-from wirelessagent.language import base_words
-from wirelessagent.language.conversation.talk_model import TALKS_FILE
+from wirelessagent.language import vocabulary
+from wirelessagent.language.conversation.weighing import TALKS_FILE
 from wirelessagent.language.figure_roles import ROLES_FILE
 from wirelessagent.language.order_model import ORDER_FILE
 from wirelessagent.language.sentence_model import SENTENCES_FILE
@@ -130,7 +130,7 @@ def load_seconds(times: int = 3) -> float:
 
 def _shipped_bytes() -> int:
     """What the offline recogniser brings along beside its code: four models, base words and classes of mood."""
-    listed = (*base_words.FOLDER.glob("*.tsv"), *base_words.FOLDER.with_name("moods").glob("*.toml"))
+    listed = (*vocabulary.FOLDER.glob("*.tsv"), *vocabulary.FOLDER.with_name("moods").glob("*.toml"))
     models = (SENTENCES_FILE, ORDER_FILE, ROLES_FILE, TALKS_FILE)
     return sum(path.stat().st_size for path in (*models, *listed))
 

@@ -18,7 +18,7 @@ from typing import Any, TypeAlias
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.acting.simulated import SimulatedBaseStation
 from wirelessagent.agent.acting import same_allocation
-from wirelessagent.agent.site import decided, station_of
+from wirelessagent.agent.state import decided, station_of
 from wirelessagent.agent.turn import Tools, Turn
 from wirelessagent.chain import resolve
 from wirelessagent.language.acts import Press

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wirelessagent import plugins
-from wirelessagent.agent.dialogue import restated
+from wirelessagent.agent.turn import restated
 from wirelessagent.language.intent import Constraint
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.request import Request

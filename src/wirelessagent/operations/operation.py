@@ -17,7 +17,7 @@ from wirelessagent.model.errors import InputError, NothingRecordedError, Wireles
 from wirelessagent.model.legible import legible, written_out
 from wirelessagent.operations.catalogue import OPERATIONS
 from wirelessagent.operations.record import Record
-from wirelessagent.telling.told import Event, Progress, silent
+from wirelessagent.telling.catalogue import Event, Progress, silent
 
 __all__ = [
     "AnyOperation", "Conversation", "Event", "InputError", "NothingRecordedError", "Operation", "Progress", "Request",

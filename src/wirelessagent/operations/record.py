@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict
 
-from wirelessagent.telling.told import Table
+from wirelessagent.telling.catalogue import Table
 
 Lines: TypeAlias = tuple[str, ...]
 

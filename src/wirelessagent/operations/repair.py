@@ -83,7 +83,7 @@ _GAINS_ALONE = "CSV holds the gains alone; which of them are repaired, how sure 
 
 
 def run(request: RepairRequest, progress: Progress) -> RepairRecord:
-    from wirelessagent.agent.site import describe
+    from wirelessagent.agent.state import describe
 
     check_gains(request.out, csv=True)
     check_picture(request.plot)

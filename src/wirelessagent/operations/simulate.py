@@ -71,7 +71,7 @@ class SimulateRecord(Record):
 
 def run(request: SimulateRequest, progress: Progress) -> SimulateRecord:
     from wirelessagent import chain
-    from wirelessagent.agent.site import describe
+    from wirelessagent.agent.state import describe
     from wirelessagent.sensing.loss import parse
     from wirelessagent.sensing.npz import write_npz
 

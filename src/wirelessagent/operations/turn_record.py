@@ -10,7 +10,7 @@ from pydantic import Field
 from wirelessagent.model.errors import InputError
 from wirelessagent.operations.answers import DecisionAnswer, ReportAnswer
 from wirelessagent.operations.record import Block, Conclusion, Integers, Record, Vector, of_decision
-from wirelessagent.telling.told import Table
+from wirelessagent.telling.catalogue import Table
 
 if TYPE_CHECKING:
     from wirelessagent.agent.session import Session

@@ -12,8 +12,7 @@ import numpy as np
 
 from wirelessagent import plugins
 from wirelessagent.language.acts import act_of
-from wirelessagent.language.intent import Intent
-from wirelessagent.language.intent_acts import acts_of
+from wirelessagent.language.intent import Intent, acts_of
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Bracket, Decision, Prices
 from wirelessagent.model.forecast import Forecast

@@ -1,16 +1,18 @@
 """All that the agent says, by key: one file of messages for each language, and one function that says them.
 
 ``messages/<language>.toml`` holds sentences with ``{place}`` fields, in tables by topic, all of them in each language.
-A language more is one more file; what it does not have yet is said in English.
+A language more is one more file; what it does not have yet is said in English. Beside sentences are told tables for
+people, and events while a piece of work is running.
 """
 
 from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, TypeAlias, cast
 
 from wirelessagent.model.legible import legible
 
@@ -162,3 +164,44 @@ def _flat(topics: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, str
 def languages() -> frozenset[str]:
     """The languages that there are messages in."""
     return frozenset(file.stem for file in _MESSAGES.glob("*.toml"))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Table:
+    """All cells are text; numbers come with their units in the column's name or in the cell."""
+
+    title: str
+    columns: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Event:
+    """Something that just happened.
+
+    Attributes:
+        stage: "read", "understand", "note", "sense", "repair", "decide", "act" or the name of a piece of long work.
+        message: one sentence for the user.
+        done, total: how far counted work has come; both 0 where nothing is counted.
+        language: of the message.
+    """
+
+    stage: str
+    message: str
+    done: int = 0
+    total: int = 0
+    language: str = "en"
+
+    @property
+    def label(self) -> str:
+        """What the stage is called."""
+        key = f"doing.{self.stage}"
+        return message(self.language, key) if has_message(self.language, key) else self.stage
+
+
+Progress: TypeAlias = Callable[[Event], None]
+
+
+def silent(event: Event) -> None:
+    """A progress listener for callers that want none."""
+    del event

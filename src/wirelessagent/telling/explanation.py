@@ -17,8 +17,7 @@ from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import db, human, percent, probability, reliability
 from wirelessagent.telling import parts
 from wirelessagent.telling.catalogue import Said, message
-from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.proof import Certainty, Certificate, certainty, certificate, measured
+from wirelessagent.telling.facts.case import Case, Certainty, Certificate, certainty, certificate, measured
 from wirelessagent.telling.parts import Teller
 from wirelessagent.telling.report import Report
 

@@ -7,12 +7,12 @@ import functools
 import numpy as np
 
 from wirelessagent.model.units import human, percent, reliability
-from wirelessagent.telling.catalogue import Said, lines_of
+from wirelessagent.telling.catalogue import Said, Table, lines_of
 from wirelessagent.telling.facts import nearest, steps
 from wirelessagent.telling.parts import BEYOND_W, Teller, outcome_in_words
-from wirelessagent.telling.told import Table
 
-_STEP_BPS = 100e3
+STEP_BPS = 100e3
+"""How much more of a promised rate has its price told."""
 _WORTH_TELLING = 1e-3
 
 
@@ -28,7 +28,7 @@ class Prices(Teller):
         """Whose promise costs most, and what 100 kbit/s more of it would cost; empty where none costs anything."""
         cost = np.nan_to_num(np.abs(np.where(self.case.promised_bps > 0, self._slopes.rate, 0.0)))
         user = int(cost.argmax())
-        return user, self.worth(float(cost[user]) * _STEP_BPS) if cost[user] > 0 else ""
+        return user, self.worth(float(cost[user]) * STEP_BPS) if cost[user] > 0 else ""
 
     def told(self) -> str:
         """The prices of power and of the dearest promise."""
@@ -56,11 +56,10 @@ class Prices(Teller):
     def table(self) -> tuple[Table, ...]:
         """What 100 kbit/s more would cost for each user with a promise; no table where nobody has one."""
         rows = list[tuple[str, ...]]()
-        for user in np.flatnonzero(self.case.promised_bps > 0).tolist():
-            rates = (
-                human(float(rate[user]), "bit/s") for rate in (self.case.promised_bps, self.case.decision.rate_bps)
-            )
-            rows.append((self.name(user), *rates, self.worth(float(self._slopes.rate[user]) * _STEP_BPS)))
+        promised, gets = self.case.promised_bps, self.case.decision.rate_bps
+        for user in np.flatnonzero(promised > 0).tolist():
+            rates = (human(float(rate[user]), "bit/s") for rate in (promised, gets))
+            rows.append((self.name(user), *rates, self.worth(float(self._slopes.rate[user]) * STEP_BPS)))
         columns = tuple(self.say(key) for key in ("label.user", "price.promised", "price.gets", "price.price"))
         return (Table(title=self.say("price.promises"), columns=columns, rows=tuple(rows)),) if rows else ()
 

@@ -18,7 +18,7 @@ from wirelessagent.model.objective import Objective
 from wirelessagent.model.phrases import phrases
 from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.telling.catalogue import Voice, called, has_message, listed, message
-from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.case import Case, objective_of
 from wirelessagent.telling.facts.nearest import shortage_of
 
 BEYOND_W = 1e6
@@ -99,8 +99,7 @@ def goal_named(objective: str, otherwise: str, language: str) -> str:
 
 def value_name(decision: Decision, language: str) -> str:
     """What the value is called in a sentence, as in "total rate"."""
-    named, objective = name_of_figure(decision, language), decision.problem.objective
-    assert isinstance(objective, Objective)
+    named, objective = name_of_figure(decision, language), objective_of(decision)
     if named or objective.measure != "utility":
         return named or message(language, f"part.{objective.measure}")
     return message(language, "part.rate" if objective.unit == "bit/s" else "text.value")
@@ -113,8 +112,7 @@ def place(first: int, last: int, language: str) -> str:
 
 def outcome_in_words(decision: Decision, language: str) -> str:
     """What a decision is worth and takes."""
-    assert isinstance(decision.problem.objective, Objective)
-    key = "part.outcome" if decision.problem.objective.measure == "power" else "part.outcome_power"
+    key = "part.outcome" if objective_of(decision).measure == "power" else "part.outcome_power"
     value, power = human(decision.value, decision.unit), human(decision.total_power_w, "W")
     return message(language, key, figure=value_name(decision, language), value=value, power=power)
 

@@ -21,10 +21,16 @@ from wirelessagent.model.objective import Objective
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.shown import Picture, Shown, Summary
 from wirelessagent.model.units import human, percent, prefixed, probability, reliability
-from wirelessagent.telling.catalogue import called, message
-from wirelessagent.telling.facts import proof
+from wirelessagent.telling.catalogue import Table, called, message
+from wirelessagent.telling.facts.case import (
+    among_served,
+    in_use,
+    objective_of,
+    predicted_metrics,
+    ungrouped_bound,
+    with_perfect_knowledge,
+)
 from wirelessagent.telling.parts import goal_words, name_of_figure, power_in_words
-from wirelessagent.telling.told import Table
 
 Columns: TypeAlias = dict[str, list[str]]
 """What a table says of each user, by the head of the column."""
@@ -89,7 +95,7 @@ class Report(Shown):
         Where perfect knowledge would have decided otherwise, what it would have achieved comes last.
         """
         known = [self.predicted, self.achieved]
-        known += [] if self.perfect is None else [proof.predicted_metrics(self.perfect)]
+        known += [] if self.perfect is None else [predicted_metrics(self.perfect)]
 
         def row(label: str, figure: Callable[[LinkMetrics], float], unit: str) -> tuple[str, ...]:
             return label, *("–" if one is None else human(figure(one), unit) for one in known)
@@ -141,9 +147,7 @@ class Report(Shown):
     @property
     def objective(self) -> Objective:
         """What was decided for."""
-        objective = self.decision.problem.objective
-        assert isinstance(objective, Objective)
-        return objective
+        return objective_of(self.decision)
 
     _derived: ClassVar[tuple[str, ...]] = ("regret", "goodput_regret")
 
@@ -197,11 +201,11 @@ def report(decision: Decision, outcome: Outcome | None = None) -> Report:
     achieved = None if outcome is None else outcome.achieved
     return Report(
         decision=decision,
-        predicted=proof.predicted_metrics(decision),
-        achieved=None if achieved is None else proof.among_served(achieved, decision),
+        predicted=predicted_metrics(decision),
+        achieved=None if achieved is None else among_served(achieved, decision),
         missed_users=() if outcome is None else tuple(int(user) for user in np.flatnonzero(outcome.missed)),
-        perfect=None if outcome is None else proof.with_perfect_knowledge(decision, outcome),
-        ungrouped_bound=proof.ungrouped_bound(decision),
+        perfect=None if outcome is None else with_perfect_knowledge(decision, outcome),
+        ungrouped_bound=ungrouped_bound(decision),
     )
 
 
@@ -246,7 +250,7 @@ def user_table(report: Report, estimate: ChannelEstimate | None = None, language
 def _holdings(report: Report, language: str, estimate: ChannelEstimate | None = None) -> Columns:
     """What each table of users begins with."""
     decision, users = report.decision, report.decision.user_names
-    own = [np.flatnonzero((decision.owner == user) & (decision.power_w > 0)) for user in range(len(users))]
+    own = [np.flatnonzero(in_use(decision) == user) for user in range(len(users))]
     columns = {"user": [called(language, name) for name in users], "subcarriers": [str(some.size) for some in own]}
     if estimate is not None:
         repaired = [int(estimate.repaired[user, some].sum()) for user, some in enumerate(own)]

@@ -8,14 +8,14 @@ from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.units import db, human, percent
 from wirelessagent.telling.catalogue import called, lines_of
 from wirelessagent.telling.facts.accounts import PROMISE_BPS, Account, Loss, account, newcomer, share
-from wirelessagent.telling.margins import Steps
+from wirelessagent.telling.facts.case import BAND, in_use
+from wirelessagent.telling.margins import STEP_BPS, Steps
 from wirelessagent.telling.parts import Teller, place
 
 _SAME = 1e-3
 """A share of a figure that does not show in it."""
 _SHOWN_DB, _TIE_DB = 0.1, 0.05
 """What shows in one decimal, and a margin that does not."""
-_STEP_BPS = 100e3
 _FACTOR = 1.0005
 
 
@@ -119,7 +119,7 @@ class Roster(Teller):
         name, at, gain = self.name(user), (user, place - 1), float(estimate.gain[user, place - 1])
         if gain <= 0:
             return self.say("gain.none_at", name=name, place=place)
-        low, high = (float(db(estimate.posterior.quantile(each)[at], floor_db=-200)) for each in (0.05, 0.95))
+        low, high = (float(db(estimate.posterior.quantile(each)[at], floor_db=-200)) for each in BAND)
         key = "gain.repaired" if estimate.repaired[at] else "gain.noisy"
         key = key if estimate.gain_variance[at] > 0 else "gain.measured"
         key = key if high - low >= _SHOWN_DB else f"{key}_close"
@@ -220,7 +220,7 @@ class Accounts(Teller):
             low, high = (human(float(one[user]), "bit/s") for one in (forecast.low_bps, forecast.high_bps))
             said += [self.say("account.band", low=low, high=high)] if low != high else []
         if found.promised_bps > 0:
-            price = found.price_per_bps * _STEP_BPS
+            price = found.price_per_bps * STEP_BPS
             key = "account.beyond" if not price > 0 else "account.binds" if _exactly(found) else "account.above"
             promised = human(found.promised_bps, "bit/s")
             due = self.say(f"account.due_{self.case.problem.firmness}", promised=promised)
@@ -251,7 +251,7 @@ class Accounts(Teller):
             return ""
         if not step.after.is_usable:
             return self.say("account.promise_none", rate=rate, reason=self.why(step.after))
-        count = int(((step.after.owner == found.user) & (step.after.power_w > 0)).sum())
+        count = int(np.count_nonzero(in_use(step.after) == found.user))
         total, change = step.after.owner.size, self.by(Steps).change(step)
         return self.say("account.promise", rate=rate, count=count, total=total, change=change)
 

@@ -10,7 +10,13 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 
-from wirelessagent.language.conversation.assent import read_assent
+from wirelessagent.language.conversation.answers import (
+    leaves_the_question,
+    read_answer,
+    read_assent,
+    unanswered,
+    with_limits,
+)
 from wirelessagent.language.conversation.commands import (
     beside_method,
     by_method,
@@ -19,9 +25,7 @@ from wirelessagent.language.conversation.commands import (
     read_method,
     with_method,
 )
-from wirelessagent.language.conversation.line import NAME, Line, has
-from wirelessagent.language.conversation.nicknames import called, only_called, with_users
-from wirelessagent.language.conversation.open_question import leaves_the_question, read_answer, unanswered, with_limits
+from wirelessagent.language.conversation.line import NAME, Line, called, has, only_called, with_users
 from wirelessagent.language.conversation.questions import (
     asked_instead,
     given_instead,
@@ -33,8 +37,7 @@ from wirelessagent.language.conversation.questions import (
 )
 from wirelessagent.language.conversation.weighing import weighed
 from wirelessagent.language.guard import guarded
-from wirelessagent.language.intent import Intent
-from wirelessagent.language.intent_acts import acts_of, stated
+from wirelessagent.language.intent import Intent, acts_of, stated
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Question, Recogniser
 from wirelessagent.language.request import Request, applied

@@ -10,14 +10,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias, cast
 
-from wirelessagent.language.deferred import deferred
-from wirelessagent.language.lifted import named_in
 from wirelessagent.language.mentions import JOINT, ORDINALS, mentions
+from wirelessagent.language.moods import named_in
 from wirelessagent.language.numerals import Number, and_part, factors, numbers
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.request import numbered
 from wirelessagent.language.text import CJK, normalise, unaccented
-from wirelessagent.language.word_tables import table
+from wirelessagent.language.word_tables import deferred, table
 
 AnchorKind: TypeAlias = Literal[
     "rate", "power", "ratio", "factor", "number", "users", "ordinal", "others", "everybody", "pronoun"
@@ -49,6 +48,11 @@ class Anchor:
     is_bounded: bool = False
     """Whether the line says that it is a bound: "at most 5 W"."""
     is_negative: bool = False
+
+    @property
+    def whom(self) -> tuple[str, ...]:
+        """The users whom it names, or whom its number may name."""
+        return self.users or ((f"{self.value:g}",) if self.kind == "number" else ())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,15 +106,15 @@ class Anchored:
         """The users who are named alone, in a list, in a range, or as two; a number up to ``most`` may be a user."""
         for anchor in (*self.anchors, *self.others):
             if anchor.users or _counts(anchor, most):
-                yield _users(anchor), (anchor,)
+                yield anchor.whom, (anchor,)
         named = [anchor for anchor in self.anchors if anchor.users or _counts(anchor, most)]
         for first, last in _lists(self.plain, named):
             for begin in range(first, last):
                 for end in range(begin + 1, last + 1):
                     yield _together(named[begin : end + 1])
         for one, other in itertools.pairwise(named):
-            first, last = (int(users[0]) if users[0].isdecimal() else 0 for users in (_users(one), _users(other)))
-            alone = len(_users(one)) == len(_users(other)) == 1
+            first, last = (int(users[0]) if users[0].isdecimal() else 0 for users in (one.whom, other.whom))
+            alone = len(one.whom) == len(other.whom) == 1
             if alone and 0 < first < last <= most and _RANGE.fullmatch(self.plain, one.end, other.start):
                 yield tuple(str(user) for user in range(first, last + 1)), (one, other)
         if len(named) == 2 and JOINT.fullmatch(self.plain, named[0].end, named[1].start) is None:
@@ -159,12 +163,8 @@ def _counts(anchor: Anchor, most: int) -> bool:
     return anchor.kind == "number" and anchor.value in range(1, most + 1)
 
 
-def _users(anchor: Anchor) -> tuple[str, ...]:
-    return anchor.users or (f"{anchor.value:g}",)
-
-
 def _together(named: Sequence[Anchor]) -> tuple[tuple[str, ...], tuple[Anchor, ...]]:
-    return tuple(dict.fromkeys(user for anchor in named for user in _users(anchor))), tuple(named)
+    return tuple(dict.fromkeys(user for anchor in named for user in anchor.whom)), tuple(named)
 
 
 def _lists(plain: str, named: Sequence[Anchor]) -> Iterator[tuple[int, int]]:

@@ -25,7 +25,7 @@ from wirelessagent.language.conversation.possible import (
     in_its_unit,
 )
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, is_allowed
-from wirelessagent.language.lifted import named_in
+from wirelessagent.language.moods import named_in
 from wirelessagent.language.request import Key, acts_between, changed, with_the_assumed
 from wirelessagent.language.sentence import BUILT_IN
 
@@ -192,12 +192,17 @@ def _same_step_of_another(possible: Possible, then: Possible) -> Iterator[Change
     for kind in (*RATES, "max_power_w"):
         others = {user: step for (name, user), step in steps.items() if name != kind}
         users = {EVERYBODY: next(iter(others.values()))} if kind == "max_power_w" and len(others) == 1 else others
-        held = {user: then.figures.get((kind, user)) or then.figures.get((kind, EVERYBODY)) for user in users}
+        held = {user: _held(then.figures, kind, user) for user in users}
         scaled = {(kind, user): old * users[user][1] / users[user][0] for user, old in held.items() if old}
         moved = {(kind, user): old + users[user][1] - users[user][0] for user, old in held.items() if old}
         for form, after in (("other scaled", scaled), ("other moved", moved)):
             if after and all(value > 0 for value in after.values()):
                 yield Change(acts_between(possible.figures, {**then.figures, **after}), form, kind, "last")
+
+
+def _held(figures: Mapping[Key, float], kind: str, user: str) -> float | None:
+    """The figure of a user, else everybody's."""
+    return figures.get((kind, user)) or figures.get((kind, EVERYBODY))
 
 
 def _like_another(possible: Possible) -> Iterator[Change]:
@@ -280,13 +285,12 @@ def _stepped(possible: Possible, group: Group) -> Iterator[Change]:
     """By as much, or as many times, as somebody's figure was changed last, for others too or in their place."""
     before = possible.past[0] if possible.past and not possible.supposed else {}
     for kind in dict.fromkeys(limit.kind for limit in possible.last if limit.kind in FIGURES_OF_USERS):
-        steps = {(before.get((kind, user)) or before.get((kind, EVERYBODY)), possible.figures.get((kind, user)))
-                 for user in possible.last_users}  # fmt: skip
+        steps = {(_held(before, kind, user), possible.figures.get((kind, user))) for user in possible.last_users}
         old, new = steps.pop() if len(steps) == 1 else (None, None)
         if not old or not new or old == new:
             continue
         for place, base in (("too", possible.figures), ("instead", before)):
-            held = [((kind, user), base.get((kind, user)) or base.get((kind, EVERYBODY))) for user in group.users]
+            held = [((kind, user), _held(base, kind, user)) for user in group.users]
             by_much = {key: figure + new - old for key, figure in held if figure}
             by_times = {key: figure * new / old for key, figure in held if figure}
             for form, figures in (("as much", by_much), ("as many times", by_times)):

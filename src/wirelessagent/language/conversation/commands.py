@@ -10,28 +10,39 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import itertools
 import re
+from collections.abc import Mapping
+from typing import Any
 
-from wirelessagent.language import forms
+from wirelessagent.language import moods
 from wirelessagent.language.acts import Prefer
 from wirelessagent.language.conversation.line import Line, begins, form, group, has, is_all
-from wirelessagent.language.deferred import deferred
-from wirelessagent.language.intent import Detail, Intent
-from wirelessagent.language.intent_acts import OWN_CHOICE
+from wirelessagent.language.intent import OWN_CHOICE, Detail, Intent
 from wirelessagent.language.number_words import cardinals
-from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.offline import NAME
 from wirelessagent.language.text import lowered, normalise
-from wirelessagent.language.topics import with_tool
-from wirelessagent.language.word_tables import languages_with, table
+from wirelessagent.language.topics import number_of, with_tool
+from wirelessagent.language.word_tables import deferred, languages_with, table
 
-_COUNTS = {**cardinals(1, 20, ("en",)), "once": 1, "twice": 2, "both": 2, "couple": 2, "thrice": 3}
-_NO_REFERENCE = (
-    "off", "on", "up", "down", "around", "over", "back", "out", "in", "into", "to", "it", "the", "this", "that", "last",
-    "previous", "left", "right",
-)  # fmt: skip
+_LISTED: Mapping[str, Any] = {
+    language: table("talk_forms", language)["command"] for language in languages_with("talk_forms")
+}
+_COUNTS: Mapping[str, int] = {
+    word: count
+    for language, listed in _LISTED.items()
+    if "counts" in listed
+    for word, count in (*cardinals(1, 20, (language,)).items(), *listed["counts"].items())
+}
+_NO_REFERENCE = {word for listed in _LISTED.values() for word in listed.get("no_reference", "").split()}
 """What behind "turn" is no reference: "turn it off"."""
 _CHANGING = ("apply", "undo", "reset")
+_TAKING_BACK: Mapping[str, tuple[str, Mapping[str, Detail]]] = {
+    "all_steps": ("undo", {"steps": "all"}),
+    "stop": ("reject", {"cancel": "pending", "stop": "all"}),
+    "cancel": ("reject", {"cancel": "pending"}),
+    "back_to_first": ("undo", {"turn": 1.0}),
+}
 _LONGEST = 120
 """Characters of a line that may be nothing but a command."""
 _LATIN = deferred(r"[a-zß-ÿœ](?:[a-zß-ÿœ'’-]*[a-zß-ÿœ])?")
@@ -71,14 +82,9 @@ def _undone(line: Line, said: str) -> Intent | None:
     if is_all("forget", said):
         open_ = line.context.awaits != "nothing"
         return line.command("reject", cancel="pending") if open_ else line.command("reset")
-    if is_all("all_steps", said):
-        return line.command("undo", steps="all")
-    if is_all("stop", said):
-        return line.command("reject", cancel="pending", stop="all")
-    if is_all("cancel", said):
-        return line.command("reject", cancel="pending")
-    if is_all("back_to_first", said):
-        return line.command("undo", turn=1.0)
+    whole = line.by_form(said, _TAKING_BACK)
+    if whole is not None:
+        return whole
     match = is_all("back_to", said)
     if match is not None:
         return line.command("undo", turn=_named(match["turn"]))
@@ -108,7 +114,7 @@ def _number(word: str) -> float | None:
     if re.fullmatch(r"[-+]?\d+(?:\.\d+)?", word):
         return float(word)
     if re.fullmatch("[一二两三四五六七八九十]+", word):
-        return float(chinese_value(word) or 0)
+        return number_of(word)
     return float(_COUNTS[word]) if word in _COUNTS else None
 
 
@@ -138,8 +144,9 @@ def is_only_a_command(text: str) -> bool:
     plain = normalise(text).lower().strip()
     if len(plain) > _LONGEST:
         return False
-    said = functools.reduce(lambda rest, polite: polite.sub(" ", rest), _forms("command_politely"), plain)
-    if said == plain and (plain.endswith("?") or forms.begins_like_a_question(plain)):
+    politely = itertools.chain.from_iterable(form("command_politely", language) for language in _LISTED)
+    said = functools.reduce(lambda rest, polite: polite.sub(" ", rest), politely, plain)
+    if said == plain and (plain.endswith("?") or moods.begins_like_a_question(plain)):
         return False
     if _denied().search(said):
         return False
@@ -149,20 +156,15 @@ def is_only_a_command(text: str) -> bool:
     return not _LETTER.search(chinese.sub("", _LATIN.sub("", said)))
 
 
-def _forms(name: str) -> tuple[re.Pattern[str], ...]:
-    return (*form(name, "en"), *form(name, "zh"))
-
-
 @functools.cache
 def _denied() -> re.Pattern[str]:
-    return re.compile("|".join(table("talk_forms", "zh")["command"]["denies"]))
+    return re.compile("|".join(each for listed in _LISTED.values() for each in listed.get("denies", ())))
 
 
 @functools.cache
 def _command_words() -> tuple[frozenset[str], re.Pattern[str]]:
     """The words that commands consist of, and the Chinese ones as a pattern, the longest first."""
-    words = {language: table("talk_forms", language)["command"]["words"].split()
-             for language in languages_with("talk_forms")}  # fmt: skip
+    words = {language: listed["words"].split() for language, listed in _LISTED.items()}
     chinese = sorted(words.pop("zh"), key=len, reverse=True)
     return frozenset(word for listed in words.values() for word in listed), re.compile("|".join(chinese))
 

@@ -3,34 +3,37 @@
 ``User 2's rate: 1 Mbit/s`` has the shape ``@'s rate: #``, so that one pattern reads every user and every figure. What a
 shape says is told by forms, as data by language (``talk_forms/<language>.toml``): one that has Chinese in it by the
 Chinese ones, every other by those of the European languages, of which only English has all.
+
+Users go by what operators call them as well: once "user 3 is the ambulance" was said, "the ambulance" is user 3, for
+the rest of the talk or until somebody else is called so. Only what is said with an article, or in Chinese with no more
+than a few signs, names somebody: "user 3 is slow" does not (``[nicknames]``).
 """
 
 from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from wirelessagent.language.base_words import language_in_a_talk
-from wirelessagent.language.deferred import deferred
 from wirelessagent.language.guard import READ_IN_A_TALK
-from wirelessagent.language.intent import Constraint, Detail, Intent, IntentKind
+from wirelessagent.language.intent import COMMANDS, Constraint, Detail, Intent
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.recogniser import Context
-from wirelessagent.language.replies import Voice
+from wirelessagent.language.replies import Answer, Voice
 from wirelessagent.language.sentence import Sentence, labels_of, own_words, read_once
 from wirelessagent.language.text import has_chinese, normalise, replaced
-from wirelessagent.language.word_tables import table, written
+from wirelessagent.language.vocabulary import language_in_a_talk, language_of, languages_of
+from wirelessagent.language.word_tables import deferred, languages_with, table, words_of, written
 
 NAME = READ_IN_A_TALK
 _ASKED = deferred(r"[?？]\s*$|[呢吗]\s*[?？]?\s*$")
-_POLITE = deferred(
-    r"^(?:(?:(?:ok(?:ay)?|please|hey|well|then|so|now|and|(?:could|can|would|will) you|let's|let us)\b|请|"
-    r"麻烦(?:你|您)?|帮我|那就?)[,，\s]*)+(?=\S)|[,，\s]*(?:please|thanks|thank you|谢谢|吧|了吧)?[\s.!。！~]*$"
-)
+_AHEAD, _BEHIND = ("|".join(words_of("talk_forms", "sentences", name)) for name in ("polite_ahead", "polite_behind"))
+_POLITE = deferred(rf"^(?:(?:{_AHEAD})(?:(?<![a-z])|\b)[,，\s]*)+(?=\S)|[,，\s]*(?:{_BEHIND})?[\s.!。！~]*$")
+_SPACED = sorted((each for each in languages_with("talk_forms") if each != "zh"), key=lambda each: each != "en")
+"""The languages with blanks between their words; English, which has all forms, goes first."""
 
 
 @functools.cache
@@ -42,14 +45,12 @@ def form(name: str, language: str) -> tuple[re.Pattern[str], ...]:
 
 def is_all(name: str, said: str) -> re.Match[str] | None:
     """The match of a form that is all that is said."""
-    found = (pattern.fullmatch(said) for pattern in _forms(name, said))
-    return next((match for match in found if match is not None), None)
+    return _first(pattern.fullmatch(said) for pattern in _forms(name, said))
 
 
 def begins(name: str, said: str) -> re.Match[str] | None:
     """The match of a form that what is said begins with."""
-    found = (pattern.match(said) for pattern in _forms(name, said))
-    return next((match for match in found if match is not None), None)
+    return _first(pattern.match(said) for pattern in _forms(name, said))
 
 
 def has(name: str, said: str) -> re.Match[str] | None:
@@ -58,12 +59,15 @@ def has(name: str, said: str) -> re.Match[str] | None:
     >>> has("promise", "what can we promise?") is None, has("promise", "10 W") is None
     (False, True)
     """
-    found = (pattern.search(said) for pattern in _forms(name, said))
+    return _first(pattern.search(said) for pattern in _forms(name, said))
+
+
+def _first(found: Iterable[re.Match[str] | None]) -> re.Match[str] | None:
     return next((match for match in found if match is not None), None)
 
 
 def _forms(name: str, said: str) -> Iterator[re.Pattern[str]]:
-    for language in ("zh",) if has_chinese(said) else ("en", "de", "es", "fr"):
+    for language in ("zh",) if has_chinese(said) else _SPACED:
         yield from form(name, language)
 
 
@@ -130,29 +134,124 @@ class Line:
         """A request, or a change of the one that holds."""
         dropped = fields.get("dropped", ())
         reply = self.voice.amended(constraints, dropped) if amends else self.voice.restated(objective, constraints, ())
-        given = {"reply": reply, "evidence": dict.fromkeys(constraints, self.text.strip()), **fields}
-        return self._intent("allocate", objective=objective, constraints=constraints, amends=amends, **given)
+        given: dict[str, Any] = {"reply": reply, "evidence": dict.fromkeys(constraints, self.text.strip()), **fields}
+        return self._answer.intent(
+            "allocate", 1.0, objective=objective, constraints=constraints, amends=amends, **given
+        )
 
     def command(self, topic: str, **details: Detail) -> Intent:
-        return self._intent("command", reply=self.voice.say(f"command.{topic}"), topic=topic, details=details)
+        return self._answer.command(topic, details, 1.0)
 
     def question(self, topic: str, **details: Detail) -> Intent:
-        said = self.voice.say(f"question.{topic}", user=self.voice.user(str(details.get("user", ""))))
-        return self._intent("question", reply=said, topic=topic, details=details)
+        return self._answer.question(topic, details, 1.0)
+
+    def by_form(self, said: str, forms: Mapping[str, tuple[str, Mapping[str, Detail]]]) -> Intent | None:
+        """The command or the question, by its topic and its details, of the first form that is all that is said."""
+        for name, (topic, details) in forms.items():
+            if is_all(name, said):
+                return self.command(topic, **details) if topic in COMMANDS else self.question(topic, **details)
+        return None
 
     def courtesy(self, key: str, /, **names: str) -> Intent:
         """Words that ask for nothing, answered in kind."""
-        return self._intent("out_of_scope", reply=self.voice.say(key, **names))
+        return self._answer.out_of_scope(key, 1.0, **names)
 
     def ask(self, key: str, pending: Mapping[str, Constraint] | None = None, /, **names: str) -> Intent:
         """A question back, whose answer may use what is pending."""
-        return self._intent("clarify", reply=self.voice.say(key, **names), pending=pending or {}, asks=key)
+        return self._answer.ask(key, 1.0, pending, **names)
 
     def ask_whether(self, topic: str) -> Intent:
         """The question of yes or no whether a command was meant."""
-        said = self.voice.say("unsure_command", text=self.voice.say(f"command.{topic}"))
-        return self._intent("clarify", reply=said, offered=topic, asks="unsure_command")
+        return self._answer.ask("unsure_command", 1.0, offered=topic, text=self.voice.say(f"command.{topic}"))
 
-    def _intent(self, kind: IntentKind, **fields: Any) -> Intent:
-        given: dict[str, Any] = {"objective": None, "constraints": {}, "evidence": {}, **fields}
-        return Intent(kind=kind, language=self.voice.language, confidence=1.0, recogniser=NAME, **given)
+    @property
+    def _answer(self) -> Answer:
+        """Intents of the conversation, which are certain."""
+        return Answer(self.voice, NAME)
+
+
+Span = tuple[int, int]
+
+
+def called(texts: Sequence[str]) -> Mapping[str, str]:
+    """The numbers of users by what lines of a talk call them, the later ones holding.
+
+    >>> called(["User 3 is the ambulance, just so you know", "users 1 and 2 are the slow ones"])
+    {'ambulance': '3'}
+    """
+    return {name: number for text in texts for _, name, number in _given(normalise(text))}
+
+
+def with_users(text: str, names: Mapping[str, str]) -> str:
+    """A line with users in the places of what they are called; the place where a name is given keeps it.
+
+    >>> with_users("the ambulance needs 2 Mbit/s", {"ambulance": "3"})
+    'user 3 needs 2 Mbit/s'
+    """
+    plain, language = normalise(text), language_of(text)
+    given = _given(plain)
+    known = {**names, **{name: number for _, name, number in given}}
+    kept = [span for span, *_ in given]
+    spans = [
+        (*match.span(), _user(match["before"], number, language))
+        for name, number in known.items()
+        if name in plain.lower()
+        for match in _called(name, language).finditer(plain)
+        if not any(first < match.end() and match.start() < last for first, last in kept)
+    ]
+    return replaced(text, sorted(spans))
+
+
+def only_called(text: str) -> Mapping[str, str]:
+    """What a line calls users, where it says nothing else.
+
+    >>> only_called("user 3 is the ambulance, just so you know"), only_called("user 3 is the ambulance: 2 Mbit/s")
+    ({'ambulance': '3'}, {})
+    """
+    plain = normalise(text)
+    given = _given(plain)
+    rest = "".join(" " if any(a <= at < b for (a, b), *_ in given) else sign for at, sign in enumerate(plain))
+    for language in languages_of(text) if given else ():
+        for words in table("talk_forms", language)["nicknames"]["aside"]:
+            rest = re.sub(rf"(?i)(?<![^\W_]){re.escape(words)}(?![^\W_])", "", rest)
+    return {} if any(map(str.isalnum, rest)) else {name: number for _, name, number in given}
+
+
+@functools.lru_cache(maxsize=256)
+def _given(plain: str) -> tuple[tuple[Span, str, str], ...]:
+    """Where a name is given, the name, and the number of the user who gets it; each line of a talk is asked often."""
+    return tuple(
+        (match.span(), name, str(int(match["user"])))
+        for language in languages_of(plain)
+        for pattern in _patterns(language)
+        for match in pattern.finditer(plain)
+        if plain[match.end() :].lstrip()[:1] not in ("?", "？")
+        and _names_somebody(name := match["name"].lower().strip(), language)
+    )
+
+
+def _names_somebody(name: str, language: str) -> bool:
+    """Whether words are no words of a request or of talking: "the slowest", "the others", "the one" name nobody."""
+    never = set(table("talk_forms", language)["nicknames"]["never"].split())
+    return not (never.intersection((name, *name.split())) or Sentence(name, own_words()).concepts or mentions(name))
+
+
+@functools.cache
+def _patterns(language: str) -> tuple[re.Pattern[str], ...]:
+    given = table("talk_forms", language)["nicknames"]["given"]
+    return tuple(re.compile(written("talk_forms", language, pattern), re.IGNORECASE) for pattern in given)
+
+
+@functools.lru_cache(maxsize=256)
+def _called(name: str, language: str) -> re.Pattern[str]:
+    """A name with the words before it that belong to it, in any case of its language."""
+    words = table("talk_forms", language)["nicknames"]
+    leading: Mapping[str, str] = words["before"]
+    before = "|".join(sorted(map(re.escape, leading), key=len, reverse=True))
+    edge = "" if language == "zh" else r"(?<![^\W_])", "" if language == "zh" else rf"(?:{words['endings']})?(?![^\W_])"
+    return re.compile(rf"{edge[0]}(?P<before>(?:{before}))?{re.escape(name)}{edge[1]}", re.IGNORECASE)
+
+
+def _user(before: str | None, number: str, language: str) -> str:
+    words = table("talk_forms", language)["nicknames"]
+    return words["before"].get((before or "").lower(), words["user"]) + number

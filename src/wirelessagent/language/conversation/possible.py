@@ -148,9 +148,9 @@ class Possible:
 
         for users, anchors in self.named:
             add(users, "named", anchors)
-        add(users_of(self.said), "last")
-        add(map(numbered, self.context.spoken_of), "spoken")
         listed = users_of(self.said)
+        add(listed, "last")
+        add(map(numbered, self.context.spoken_of), "spoken")
         for place, user in enumerate(listed if 1 < len(listed) <= _LISTED else ()):  # "the second one"
             add((user,), "last one" if place == len(listed) - 1 else f"one {place}")
         earlier = [users for acts in self.context.earlier[::-1] if (users := users_of(acts))]
@@ -191,9 +191,8 @@ class Possible:
         value, unitless = figure.value, figure.kind == "number"
         if kind in ("weights", "resource_block_group_size"):
             whole = kind == "weights" or value == int(value)
-            return (
-                {value} if (unitless or (figure.kind == "factor" and kind == "weights")) and whole and value else set()
-            )
+            said = unitless or (figure.kind == "factor" and kind == "weights")
+            return {value} if said and whole and value else set()
         if figure.kind == "ratio" and self.shares_power:  # "70 % of the power", "no, 60 %"
             return {value * self.context.max_power_w} if kind == "max_power_w" else set()
         if kind == "outage_probability":

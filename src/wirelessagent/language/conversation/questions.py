@@ -10,18 +10,17 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 
-from wirelessagent.language import forms
-from wirelessagent.language.base_words import languages_of
+from wirelessagent.language import moods
 from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.conversation.line import NAME, Line, begins, group, has, is_all
-from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Detail, Intent
+from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.moods import places, table_of
-from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.offline import NAME as OFFLINE
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.sentence import Sentence, own_words
 from wirelessagent.language.text import lowered, normalise
-from wirelessagent.language.topics import about, tools_named
+from wirelessagent.language.topics import about, number_of, tools_named
+from wirelessagent.language.vocabulary import languages_of
 
 _ASKED: Mapping[str, tuple[str, Mapping[str, Detail]]] = {
     "why_not": ("why_infeasible", {}),
@@ -54,10 +53,9 @@ def read_question(line: Line) -> Intent | None:
         return line.command("history", turn=float(group(match)))
     if line.context.objective is None:
         return None
-    for name, (topic, details) in _ASKED.items():
-        if is_all(name, line.said):
-            answer = line.command if topic in COMMANDS else line.question
-            return answer(topic, **details)
+    asked = line.by_form(line.said, _ASKED)
+    if asked is not None:
+        return asked
     if not line.figures and has("missing", line.said):
         return line.question("what_if", missing_share=0.0)
     return None if line.figures else _of_what_was_measured(line) or _of_shares(line)
@@ -74,7 +72,7 @@ def _of_what_was_measured(line: Line) -> Intent | None:
     place = has("on_subcarrier", lowered(normalise(line.text)))
     if len(line.users) != 1 and place is None:
         return None
-    where: dict[str, Detail] = {} if place is None else {"subcarrier": _number(place["place"])}
+    where: dict[str, Detail] = {} if place is None else {"subcarrier": number_of(place["place"])}
     return line.question("users", asked="gain", **_user(line), **where)
 
 
@@ -82,7 +80,7 @@ def _of_shares(line: Line) -> Intent | None:
     """Questions who has what: "who has subcarrier 5?", "which subcarriers does user 3 have?"."""
     owner = is_all("owner", lowered(normalise(line.text)).strip().rstrip("?.。! "))
     if owner is not None:
-        return line.question("users", subcarrier=_number(owner["place"]))
+        return line.question("users", subcarrier=number_of(owner["place"]))
     if len(line.users) <= 1 and is_all("listed", line.said):
         return line.question("users", listed="subcarriers", **_user(line))
     if len(line.users) == 1 and is_all("share_of_one", line.said):
@@ -92,10 +90,6 @@ def _of_shares(line: Line) -> Intent | None:
 
 def _user(line: Line) -> dict[str, Detail]:
     return {"user": line.users[0]} if line.users else {}
-
-
-def _number(word: str) -> float:
-    return float(word) if word.isdecimal() else float(chinese_value(word) or 0)
 
 
 def read_needed(line: Line) -> Intent | None:
@@ -203,7 +197,7 @@ def asked_instead(line: Line, understood: Intent) -> Intent | None:
     """What to answer instead of a question back about the aim, which is known; None where that is not asked."""
     if line.context.objective is None or understood.kind != "clarify":
         return None
-    asks = forms.is_asked(line.shape) or forms.asks_without_a_mark(line.shape) or has("asking", line.shape)
+    asks = moods.is_asked(line.shape) or moods.asks_without_a_mark(line.shape) or has("asking", line.shape)
     if understood.pending or understood.asks not in _OPEN or not asks:
         return _without_the_aim(line, understood)
     kinds = line.sentence.chances.kinds
@@ -243,7 +237,7 @@ def _without_the_aim(line: Line, understood: Intent) -> Intent | None:
 def only_supposed(line: Line, intent: Intent) -> Intent:
     """A what-if of what a line supposes, weighs or asks about, where it was read as a request; else the intent."""
     supposing = supposes(line.text) and not is_courtesy(line.text)
-    if intent.kind != "allocate" or not (supposing or forms.asks_without_a_mark(line.text)):
+    if intent.kind != "allocate" or not (supposing or moods.asks_without_a_mark(line.text)):
         return intent
     if not supposing and not intent.constraints and not intent.dropped and not intent.acts:
         return line.question("other")  # "what's the total rate" names no aim

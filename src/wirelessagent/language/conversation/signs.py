@@ -10,20 +10,97 @@ import functools
 import itertools
 import math
 import zlib
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.base_words import aligned, based
+from wirelessagent.language.acts import Act, Aim, Suppose, Undo
 from wirelessagent.language.conversation.anchors import Anchor
 from wirelessagent.language.conversation.changes import changes_of
-from wirelessagent.language.conversation.heard import Read
-from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.possible import RATES, Change, Effect, Possible
+from wirelessagent.language.figure_roles import answers
+from wirelessagent.language.intent import Intent, acts_of, stated
+from wirelessagent.language.judged import first_look
 from wirelessagent.language.moods import classes_in
 from wirelessagent.language.sentence import BUILT_IN
+from wirelessagent.language.vocabulary import aligned, based
+
+
+@dataclass(frozen=True, kw_only=True)
+class Read:
+    """A line as the readers of sentences see it.
+
+    Attributes:
+        kind: of their intent; ``topic`` is who read it, and what it is about or what it asks.
+        acts, guessed: what they would do, or suppose, and what they ask whether to do.
+        effect, guess: what that comes to; None for nothing.
+        supposes: whether they would only suppose it.
+        order: how likely it orders something.
+        kinds: how likely each kind of sentence is.
+        roles: by where a figure, a number or users stand, how likely they are there for what.
+    """
+
+    kind: str
+    topic: str
+    acts: tuple[Act, ...]
+    guessed: tuple[Act, ...]
+    effect: Effect | None
+    guess: Effect | None
+    supposes: bool
+    order: float
+    kinds: Mapping[str, float]
+    roles: Mapping[int, Mapping[str, float]]
+
+    @classmethod
+    def of(cls, line: Line, intent: Intent, possible: Possible) -> Read:
+        """What an intent does to what holds."""
+        sentence, topic = line.sentence, intent.asks or intent.topic or ""
+        acts, guessed = _changing(intent), _guessed(intent)
+        return cls(
+            kind=intent.kind, topic=f"{intent.recogniser == NAME}:{topic}", acts=acts, guessed=guessed,
+            effect=_effect(acts, possible), guess=_effect(guessed, possible), supposes=intent.kind == "question",
+            order=sentence.chances.order, kinds=sentence.chances.kinds, roles=_roles(line),
+        )  # fmt: skip
+
+
+def _roles(line: Line) -> dict[int, Mapping[str, float]]:
+    """What the figures, the numbers and the users of a line are there for, each by where it stands."""
+    look = first_look(line.sentence.plain, line.sentence.quantities, line.context.user_names)
+    view, found = look.view(), dict[int, Mapping[str, float]]()
+    for place, figure in enumerate(look.figures):
+        found[figure.start] = answers(figure.kind, view.figure(place))
+    for mention in look.mentions:
+        if mention.role == "named":
+            found[mention.start] = answers("user", view.user(mention))
+    for number in look.loose:
+        found[number.start] = answers("number", view.number(number, look.bound(number)))
+    return found
+
+
+def _changing(intent: Intent) -> tuple[Act, ...]:
+    """What an intent does to the request, or supposes of it."""
+    acts = acts_of(intent)
+    if len(acts) == 1 and type(acts[0]) is Suppose and acts[0].missing_share is None:
+        return acts[0].acts
+    return acts if intent.kind == "allocate" or intent.topic == "undo" else ()
+
+
+def _guessed(intent: Intent) -> tuple[Act, ...]:
+    """What a question back has understood, or offers for a yes."""
+    if intent.guess is not None:
+        return _changing(intent.guess)
+    aim = (Aim(objective=intent.offered),) if intent.offered in BUILT_IN else ()
+    return (*aim, *stated(intent.pending)) if intent.kind == "clarify" else ()
+
+
+def _effect(acts: Sequence[Act], possible: Possible) -> Effect | None:
+    steps = [act.steps for act in acts if isinstance(act, Undo)]
+    too_many = steps and not (steps[0] is not None and 0 < steps[0] <= len(possible.context.past))
+    return None if too_many or not acts else possible.effect(acts)
+
 
 BUCKETS = 1 << 20
 Places = npt.NDArray[np.int64]
@@ -38,9 +115,13 @@ _SPREAD = np.uint32(2654435761)
 TOGETHER = 60
 
 
+def _hashed(sign: str) -> int:
+    return zlib.crc32(sign.encode("utf-8", "replace"))
+
+
 @functools.lru_cache(maxsize=1 << 16)
 def place_of(sign: str) -> int:
-    return zlib.crc32(sign.encode("utf-8", "replace")) % BUCKETS
+    return _hashed(sign) % BUCKETS
 
 
 def level(share: float) -> int:
@@ -49,7 +130,7 @@ def level(share: float) -> int:
 
 
 def _hashes(signs: Iterable[str]) -> npt.NDArray[np.uint32]:
-    return np.unique(np.array([zlib.crc32(sign.encode("utf-8", "replace")) for sign in signs], dtype=np.uint32))
+    return np.unique(np.array([_hashed(sign) for sign in signs], dtype=np.uint32))
 
 
 def relation(effect: Effect, other: Effect | None) -> str:
@@ -106,6 +187,11 @@ class Signs:
         """What the line names."""
         return self._anchored.anchors
 
+    @property
+    def plain(self) -> str:
+        """The line, normalised."""
+        return self._anchored.plain
+
     def changes(self) -> list[Change]:
         """Each change that is possible, all that the readers take the line for, and last, that it is supposed."""
         read = self._read
@@ -134,13 +220,8 @@ class Signs:
         whole = f"{kind}:{change.source}"
         blocks = [(form, self._all), (kind, self._single), (whole, self._whole)]
         blocks += [(f"{form}@{change.source}", self._single)] if change.source else []
-        return blocks + [(f"{way}:{form}", self._single) for way in self._way(change)]
-
-    def _way(self, change: Change) -> Iterator[str]:
-        """Whether the figure goes up or down, where it does either."""
-        ratio = self._ratio(change)
-        if ratio is not None and change.figure is not None:
-            yield "up" if ratio > 0 else "down"
+        ratio = None if change.figure is None else self._ratio(change)
+        return blocks if ratio is None else [*blocks, (f"{'up' if ratio > 0 else 'down'}:{form}", self._single)]
 
     def _ratio(self, change: Change) -> float | None:
         """How many times two the first figure that changes becomes."""
@@ -205,8 +286,7 @@ class Signs:
 
     def _is_of_last(self, anchor: Anchor) -> bool:
         """Whether an anchor names users of whom something was said last."""
-        users = anchor.users or ((f"{anchor.value:g}",) if anchor.kind == "number" else ())
-        return bool(users) and {*users} <= self._possible.last_users
+        return bool(anchor.whom) and {*anchor.whom} <= self._possible.last_users
 
     def _is_of(self, anchor: Anchor, kind: str) -> bool:
         """Whether a figure is one that holds of a kind, so that another may stand in its place."""
@@ -316,6 +396,6 @@ def _name(act: object) -> str:
 
 def block_places(name: str, words: npt.NDArray[np.uint32]) -> Places:
     """The buckets of what a change does beside each word."""
-    seed = np.uint32(zlib.crc32(name.encode("utf-8", "replace")))
+    seed = np.uint32(_hashed(name))
     with np.errstate(over="ignore"):
         return np.asarray((seed * _SPREAD + words) % np.uint32(BUCKETS), dtype=np.int64)

@@ -18,8 +18,7 @@ import numpy.typing as npt
 from wirelessagent.language.intent import checked_constraints, same_constraints
 from wirelessagent.language.sentence import Sentence, own_words
 from wirelessagent.language.sentence_model import KNOWN, SENTENCES_FILE, SentenceModel, hashes_of, places_of, rows_of
-from wirelessagent.language.training.compose import OBJECTIVES
-from wirelessagent.language.training.examples import Example, examples
+from wirelessagent.language.training.examples import OBJECTIVES, Example, examples
 from wirelessagent.language.training.fit import in_parallel
 from wirelessagent.language.training.network import LENGTHS, PASSES, Shown, fit
 

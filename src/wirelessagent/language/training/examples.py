@@ -1,6 +1,6 @@
 """The sentences that the network and the judge of orders learn from: what they want, and whether they order it.
 
-They are drawn from templates (:mod:`.compose`), written down as people say them, ``spoken/<language>.tsv``, lines of
+They are drawn from templates, written down as people say them, ``spoken/<language>.tsv``, lines of
 talks (:mod:`.talk_notation`), and frames that are filled, ``frames/<language>.tsv``.
 
 Each line of the spoken ones is a label, a sentence, and for a request its constraints as JSON in SI units, where they
@@ -12,23 +12,286 @@ users look like and what does not are, too: groups of orders, and between them w
 without constraints.
 
 A line of the frames is "order" or "none" and a sentence with ``{}`` in the place of its wish.
+
+Templates are text, ``<language>.txt``: a line ``[label]`` begins the templates of a label, ``= name`` a list that
+``<name>`` refers to; ``(a|b|)`` is a choice and ``%`` begins a comment. What ``<power>``, ``<rate>``, ``<ratio>``,
+``<bare>`` and ``<user_ref>`` stand for, and what sentences are put together with, is in ``fillings/<language>.toml``.
 """
 
 from __future__ import annotations
 
 import itertools
 import json
+import math
 import random
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
-from wirelessagent.language.deferred import deferred
 from wirelessagent.language.sentence_model import TOLD
-from wirelessagent.language.training.compose import OBJECTIVES, mistyped, sentences, wishes
 from wirelessagent.language.training.talk_notation import talks
+from wirelessagent.language.word_tables import deferred, table, words_of
 from wirelessagent.model.errors import InputError
+
+Slot: TypeAlias = Callable[[random.Random], str]
+
+OBJECTIVES = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
+LANGUAGES = ("en", "zh", "es", "fr", "de")
+SURROUNDINGS = ("opener", "closer", "neutral", "constraint", "contrast", "wonder")
+
+_FOLDER = Path(__file__).parent
+FILLINGS = "training/fillings"
+_NOUNS: dict[str, str] = dict(
+    zip(OBJECTIVES, ("rate_noun", "power_noun", "ee_noun", "pf_noun", "mm_noun"), strict=True)
+)
+_RIVALS = (("max_rate", "min_power"), ("max_rate", "max_min_rate"), ("proportional_fairness", "max_min_rate"))
+_NUMBERS = ("1", "2", "5", "10", "12", "20", "25", "40", "0.5", "2.5", "300", "100", "1.2")
+_TYPOS, _BARE = 0.1, 0.25
+_GOES_BACK, _LIMIT_ALONE, _AIM_ALONE = 0.06, 0.25, 0.6
+_PER_WISH, _PER_SITUATION, _PER_WORDS, _PER_OTHER = 9.0, 4.0, 12.0, 5.0
+"""How often a template is drawn, for each doubling of its variety."""
+
+_SPACES = re.compile(r"\s+")
+_TIGHT = re.compile(r"\s+([,.;:!?\uff0c。？])")
+
+
+def slots(language: str) -> Mapping[str, Slot]:
+    """What draws the figures and users of a language's templates."""
+
+    def slot(name: str, choices: list[str]) -> Slot:
+        if name in ("power", "rate"):
+            return lambda chance: chance.choice(_NUMBERS) + chance.choice(choices)
+        return lambda chance: chance.choice(choices)
+
+    return {name: slot(name, choices) for name, choices in table(FILLINGS, language)["slots"].items()}
+
+
+def sentences(seed: int = 1) -> Iterator[tuple[str, str]]:
+    """(sentence, label) for training, the same ones for a seed."""
+    chance = random.Random(seed)
+    for language in LANGUAGES:
+        for text, label in _Maker(language, chance).all():
+            yield (mistyped(text, chance) if chance.random() < _TYPOS else text), label
+
+
+def wishes(language: str, chance: random.Random) -> Iterator[tuple[str, str]]:
+    """What somebody may want of a cell, with its kind, without end: aims, limits, both, and at times to go back."""
+    maker = _Maker(language, chance)
+    while True:
+        yield maker.wish()
+
+
+def mistyped(text: str, chance: random.Random) -> str:
+    """A sentence with one slip: a letter lost, doubled, or swapped with its neighbour."""
+    if len(text) < 6:
+        return text
+    place = chance.randrange(1, len(text) - 2)
+    if not text[place].isalpha() or not text[place + 1].isalpha():
+        return text
+    a, b = text[place], text[place + 1]
+    return text[:place] + chance.choice((b + a, a, a + a + b)) + text[place + 2 :]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Grammar:
+    """The templates of one language."""
+
+    language: str
+    templates: Mapping[str, tuple[str, ...]]
+    lists: Mapping[str, tuple[str, ...]]
+
+    @classmethod
+    def read(cls, path: Path) -> Grammar:
+        templates, lists, into = dict[str, list[str]](), dict[str, list[str]](), list[str]()
+        for line in path.read_text(encoding="utf-8").splitlines():
+            text = line.strip()
+            if not text or text.startswith("%"):
+                continue
+            if text.startswith("["):
+                into = templates.setdefault(text.strip("[]"), [])
+            elif text.startswith("= "):
+                into = lists.setdefault(text[2:].strip(), [])
+            else:
+                into.append(text)
+        return cls(
+            language=path.stem,
+            templates={name: tuple(lines) for name, lines in templates.items()},
+            lists={name: tuple(lines) for name, lines in lists.items()},
+        )
+
+    def draw(self, template: str, chance: random.Random, slots: Mapping[str, Slot]) -> str:
+        """One of the sentences that a template stands for."""
+        text, end = self._draw(template, 0, chance, slots)
+        assert end == len(template), f"unbalanced brackets in {template!r}"
+        text = _SPACES.sub("" if self.language == "zh" and not text.isascii() else " ", text).strip()
+        return _TIGHT.sub(r"\1", text)
+
+    def _draw(self, template: str, start: int, chance: random.Random, slots: Mapping[str, Slot]) -> tuple[str, int]:
+        options, place = [""], start
+        while place < len(template):
+            letter = template[place]
+            if letter == "(":
+                drawn, place = self._draw(template, place + 1, chance, slots)
+                options[-1] += drawn
+            elif letter == ")":
+                return chance.choice(options), place + 1
+            elif letter == "|" and start > 0:
+                options.append("")
+                place += 1
+            elif letter == "<":
+                end = template.index(">", place)
+                options[-1] += self._slot(template[place + 1 : end], chance, slots)
+                place = end + 1
+            else:
+                options[-1] += letter
+                place += 1
+        return options[0], place
+
+    def _slot(self, name: str, chance: random.Random, slots: Mapping[str, Slot]) -> str:
+        if name in slots:
+            return slots[name](chance)
+        return self.draw(chance.choice(self.lists[name]), chance, slots)
+
+    def variety(self, template: str) -> int:
+        """Roughly how many sentences a template stands for."""
+        several = template.count("|") + 1
+        return several * (1 + 3 * template.count("<"))
+
+
+class _Maker:
+    """Sentences of one language."""
+
+    def __init__(self, language: str, chance: random.Random) -> None:
+        self._grammar, self._chance = Grammar.read(_FOLDER / f"{language}.txt"), chance
+        self._slots, self._words_by_use = slots(language), table(FILLINGS, language)["words"]
+        self._gap, self._comma = ("", "\uff0c") if language == "zh" else (" ", ", ")
+
+    def wish(self) -> tuple[str, str]:
+        """An aim, a limit, both, or a command that goes back, with its kind."""
+        draw = self._chance.random()
+        if draw < _GOES_BACK:
+            command = self._chance.choice(("command.undo", "command.reset"))
+            return self._pick(command), command
+        objective = self._chance.choice(OBJECTIVES)
+        aim, limit = self._pick(objective), self._pick("constraint")
+        if draw < _LIMIT_ALONE:
+            return limit, "clarify.limits"
+        return (aim if draw < _AIM_ALONE else aim + self._words_by_use["and"][0] + limit), objective
+
+    def all(self) -> Iterator[tuple[str, str]]:
+        """Sentences of every template, with their labels."""
+        for label, templates in self._grammar.templates.items():
+            if label in SURROUNDINGS:
+                continue
+            kind, _, use = label.partition(".")
+            if use == "words":
+                make, often, meant = self._words, _PER_WORDS, kind
+            elif kind in OBJECTIVES:
+                make, often, meant = self._wish, _PER_SITUATION if use else _PER_WISH, kind
+            else:
+                make, often, meant = self._other, _PER_OTHER, "question.other" if label == "question.fact" else label
+            for template in templates:
+                for _ in range(round(often * math.log2(1 + self._grammar.variety(template)))):
+                    yield make(template, label), meant
+        yield from self._turned_round()
+
+    def _turned_round(self) -> Iterator[tuple[str, str]]:
+        """Wishes that are wondered about, refused, or at odds with each other."""
+        chance = self._chance
+        for _ in range(60 if self._grammar.language in ("en", "zh") else 20):
+            for objective in OBJECTIVES:
+                wish = self._pick(objective)
+                wonder = self._pick("wonder", {"wish": lambda _, wish=wish: wish})
+                yield wonder + ("?" if chance.random() < 0.6 else ""), "question.what_if"
+            for rivals in _RIVALS:
+                pair = [self._pick(objective) for objective in rivals]
+                chance.shuffle(pair)
+                yield chance.choice(self._words_by_use["and"]).join(pair), "clarify.rivals"
+            refused = chance.choice(self._words_by_use["not"]) + self._pick(chance.choice(OBJECTIVES))
+            yield refused, "clarify.negated"
+
+    def _pick(self, name: str, more: Mapping[str, Slot] | None = None) -> str:
+        templates = self._grammar.templates[name]
+        return self._grammar.draw(self._chance.choice(templates), self._chance, {**self._slots, **(more or {})})
+
+    def _wish(self, template: str, label: str) -> str:
+        """A wish, or the story of one, among other sentences."""
+        chance = self._chance
+        objective, _, situation = label.partition(".")
+        core = self._grammar.draw(template, chance, self._slots)
+        if chance.random() < _BARE:
+            return core
+        parts = [core]
+        if situation and chance.random() < 0.35:
+            parts.append(self._pick(objective))
+        elif not situation and chance.random() < 0.12:
+            parts.insert(chance.randrange(2), self._pick(objective))
+        elif not situation and chance.random() < 0.2:
+            parts[0] = self._contrasted(core, objective)
+        if not situation and chance.random() < 0.07:
+            parts.insert(0, self._situation())
+        if chance.random() < 0.3 and not situation:
+            parts[0] = self._pick("opener") + self._gap + parts[0]
+        for _ in range(chance.choice((0, 0, 0, 1, 1, 2, 3))):
+            parts.insert(chance.choice((0, len(parts), len(parts))), self._pick("constraint"))
+        if chance.random() < 0.15:
+            parts.insert(0, self._pick("neutral"))
+        if chance.random() < 0.2:
+            parts[-1] += chance.choice((self._gap, self._comma)) + self._pick("closer")
+        text = parts[0]
+        for part in parts[1:]:
+            joints = (self._comma, self._comma, *self._words_by_use["and"], self._gap or self._comma)
+            text += chance.choice(joints) + part
+        return self._as_question(text)
+
+    def _as_question(self, text: str) -> str:
+        """A polite request often ends like a question: "could you …?"."""
+        polite = text.lower().startswith(words_of(FILLINGS, "words", "polite")) or text.endswith("吗")
+        return text + "?" if polite and self._chance.random() < 0.6 else text
+
+    def _words(self, template: str, label: str) -> str:
+        """A few words of an objective among small words, in any order."""
+        chance = self._chance
+        parts = [self._grammar.draw(template, chance, self._slots)]
+        parts += [self._pick(label) for _ in range(chance.choice((0, 1, 1)))]
+        parts += chance.sample(self._words_by_use["small"], chance.randrange(2, 7))
+        chance.shuffle(parts)
+        if chance.random() < 0.3:
+            parts.insert(chance.choice((0, len(parts))), self._comma.strip() + self._pick("constraint"))
+        return self._gap.join(parts)
+
+    def _situation(self) -> str:
+        """The story of any objective, which a plain wish overrules."""
+        names = [name for name in self._grammar.templates if name.endswith(".situation")]
+        return self._pick(self._chance.choice(names)) if names else self._pick("neutral")
+
+    def _contrasted(self, wish: str, objective: str) -> str:
+        """A wish beside an objective that is not wanted."""
+        other = self._chance.choice([name for name in OBJECTIVES if name != objective])
+        noun = self._grammar.draw(f"<{_NOUNS[other]}>", self._chance, self._slots)
+        contrast = self._pick("contrast", {"other": lambda _: noun})
+        if self._chance.random() < 0.6 or contrast.endswith((",", ":", "\uff0c")):
+            return contrast + self._gap + wish
+        return wish + self._comma + contrast
+
+    def _other(self, template: str, label: str) -> str:
+        """What is no wish, at times among other sentences."""
+        chance = self._chance
+        text = self._grammar.draw(template, chance, self._slots)
+        kind = label.partition(".")[0]
+        if chance.random() < (0.2 if kind != "question" else 0.1):
+            text = self._pick("opener") + self._gap + text
+        if chance.random() < 0.15:
+            text += chance.choice((self._gap, self._comma)) + self._pick("closer")
+        if label in ("clarify.opposite", "clarify.negated", "clarify.rivals") and chance.random() < 0.3:
+            text += self._comma + self._pick("constraint")
+        text = self._as_question(text) if kind != "question" or chance.random() > 0.7 else text + "?"
+        if chance.random() < 0.05:
+            text = self._pick("neutral") + self._comma + text
+        return text
+
 
 SPOKEN, FRAMES = Path(__file__).with_name("spoken"), Path(__file__).with_name("frames")
 

@@ -29,11 +29,10 @@ from wirelessagent.kernels.supply import foreground
 from wirelessagent.language.acts import Act, Everybody, Serve, Undo
 from wirelessagent.language.conversation import read_by_rules
 from wirelessagent.language.conversation.anchors import Anchored
-from wirelessagent.language.conversation.heard import Read
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.possible import Change, Effect, Possible
-from wirelessagent.language.conversation.signs import BUCKETS, TOGETHER, Signs, Together, block_places, place_of
-from wirelessagent.language.conversation.talk_model import BLOCK, OWN, TALKS_FILE, Meaning, TalkModel, meanings
+from wirelessagent.language.conversation.signs import BUCKETS, TOGETHER, Read, Signs, Together, block_places, place_of
+from wirelessagent.language.conversation.weighing import BLOCK, OWN, TALKS_FILE, Meaning, TalkModel, meanings
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.request import Key
 from wirelessagent.language.training.fit import in_parallel, rounded

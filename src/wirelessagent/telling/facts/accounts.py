@@ -22,7 +22,8 @@ from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.priced_worth import priced_worth_w
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import Decision
-from wirelessagent.telling.facts.case import Case
+from wirelessagent.model.units import db
+from wirelessagent.telling.facts.case import BAND, Case, in_use
 from wirelessagent.telling.facts.steps import Step, marginal_prices, promise_step
 
 Standing: TypeAlias = Literal[
@@ -35,7 +36,6 @@ bid more everywhere."""
 PROMISE_BPS = 100e3
 """The minimum rate that is tried for a user without any."""
 _LOSSES = 3
-_LEAST_BAND, _MOST_BAND = 0.05, 0.95
 _DRAWS, _SEED = 4000, 5
 _HALVINGS, _FARTHEST_DB, _DEAREST = 60, 120.0, 1e130
 
@@ -175,9 +175,8 @@ def _spread(case: Case, user: int, inside: IntArray, behind_db: float) -> tuple[
         return -np.inf, np.inf, np.nan
     samples = case.estimate.posterior.samples_of(user, inside, _DRAWS, seed=_SEED)
     drawn: FloatArray = np.asarray(samples.sum(axis=1) / counted, dtype=np.float64)
-    low, high = (float(one) for one in np.quantile(drawn, (_LEAST_BAND, _MOST_BAND)))
-    with np.errstate(divide="ignore"):
-        return float(10 * np.log10(low)), float(10 * np.log10(high)), float(np.mean(drawn >= 10 ** (behind_db / 10)))
+    low, high = (float(one) for one in np.quantile(drawn, BAND))
+    return float(db(low)), float(db(high)), float(np.mean(drawn >= 10 ** (behind_db / 10)))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -204,7 +203,7 @@ def bids(case: Case) -> Bids:
     """The bids for a usable decision, at its own prices or, where its method has none, at the dual's."""
     form, price = case.form, _prices_of_rates(case)
     worth = priced_worth_w(form, form.snr_per_w, price)
-    owner = np.maximum.reduceat(np.where(case.decision.power_w > 0, case.decision.owner, -1), form.start[:-1])
+    owner = np.maximum.reduceat(in_use(case.decision), form.start[:-1])
     held = np.flatnonzero(owner >= 0)
     wanted = np.zeros(owner.size)
     wanted[held] = worth[owner[held], held]
