@@ -37,6 +37,11 @@ def read(text: str) -> dict[str, Any]:
         ("user 3 at 2 Mbit/s, no, 5", "user 3 at 2 Mbit/s, no, 5"), ("at 2 Mbit/s, no more", "at 2 Mbit/s, no more"),
         ("1 Mbit/s at least, no, 3 W at most", "1 Mbit/s at least, no, 3 W at most"),
         ("users 1, 2 and 3, no more than 10 W", "users 1, 2 and 3, no more than 10 W"),
+        ("no service to 6, no service to 7", "no service to 6, no service to 7"),
+        ("con 10 W, no 20 W", "con 10 W, no 20 W"), ("不超过10瓦，不是20瓦", "不超过10瓦，不是20瓦"),
+        ("everyone 1 Mbit/s, rather 2 Mbit/s for user 3", "everyone 1 Mbit/s, rather 2 Mbit/s for user 3"),
+        ("at most 10 W, hold on, 8 W is the circuit power", "at most 10 W, hold on, 8 W is the circuit power"),
+        ("drop user 3, sorry for user 4", "drop user 3, sorry for user 4"),
         ("drop 1, 2 and 3, sorry, cap is 10 W", "drop 1, 2 and 3, sorry, cap is 10 W"),
         ("1 Mbit/s for 3, no, 2 Mbit/s", "1 Mbit/s for 3, no, 2 Mbit/s"),
         ("drop 7, no, 7 stays", "drop 7, no, 7 stays"),
@@ -135,3 +140,30 @@ def test_a_share_before_many_blanks_is_read_at_once() -> None:
     """Where each blank could belong to two parts of a pattern, two dozen took ten seconds."""
     assert read("max rate at half" + " " * 400 + "the power") == {"max_power_w": 10.0}
     assert Sentence("max rate at 50 %" + " " * 400 + "x", own_words()).reading.doubts
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("user 4: 0.7; user 6: 1.1, all in Mbit/s", {"4": 7e5, "6": 1.1e6}),
+        ("以兆为单位：3号至少1.2，5号至少0.6", {"3": 1.2e6, "5": 6e5}),
+        ("in Mbit/s: user 3 at least 2", {"3": 2e6}), ("1号至少1.1，2号至少1.2，单位都是Mbit/s", {"1": 1.1e6, "2": 1.2e6}),
+    ],
+)  # fmt: skip
+def test_a_unit_said_once_is_that_of_all_rates(text: str, expected: dict[str, float]) -> None:
+    assert read(text) == {"min_rate_bps": expected}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Gbit/s would be nice, user 3 at least 2", "chaque kbit/s compte, l'utilisateur 3 au moins 2",
+        "not in kbit/s: user 3 at least 2", "as many Mbit/s as possible, budget 8",
+        "get the most Mbit/s, user 3 at least 500",
+        "user 3 gets 2 Mbit/s, user 5 as much as possible", "user 3 gets 2 Mbit/s, user 5 the same device",
+        "Nutzer 3 mindestens 2 Mbit/s, Nutzer 5 gleich abschalten",
+        "user 3 gets 2 Mbit/s, the same not for user 5",
+    ],
+)  # fmt: skip
+def test_a_unit_in_passing_is_no_figures_and_what_is_alike_in_passing_gives_nothing(text: str) -> None:
+    assert Sentence(text, own_words()).reading.doubts

@@ -19,7 +19,7 @@ from wirelessagent.language.mentions import ARTICLES, Mention, Role
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.stated import Doubt, Reading, doubt_parts, take_blocks, take_counts
-from wirelessagent.language.text import Phrases, clause_end, clause_start, overlaps
+from wirelessagent.language.text import AND, Phrases, clause_end, clause_start, overlaps
 from wirelessagent.language.word_tables import deferred, either
 
 _SURE_OF_A_ROLE, _SURE_OF_SILENCE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.9, 0.5, 0.45
@@ -28,8 +28,11 @@ _RATES = ("min_rate_bps", "max_rate_bps")
 _LEAVING = Phrases(either("figures", "users", "leaving"))
 _ALIKE = either("figures", "users", "alike")
 _ALIKE_AHEAD, _ALIKE_BEHIND = (
-    deferred(rf"(?i)(?:{_ALIKE})\s*(?:\w+\s+)?(?:{either('figures', 'users', 'given_to')})?\s*(?:(?:{ARTICLES})\s*)?$"),
-    deferred(rf"(?i)\s*号?\s*(?:(?:{either('figures', 'users', 'takes')})\s*)?(?:{_ALIKE})"),
+    deferred(rf"(?i)(?:{_ALIKE})\s*(?:{either('figures', 'users', 'given_to')})\s*(?:(?:{ARTICLES})\s*)?$"),
+    deferred(
+        rf"(?i)\s*号?\s*(?:(?:{either('figures', 'users', 'takes')})\s*)?(?:{_ALIKE})"
+        rf"(?=\s*(?:$|[,.;:!?)\uff0c。；、]|(?:{AND})\b))"
+    ),
 )
 _SILENT = ("kept", "stale")
 """Roles of somebody who is only spoken of."""
@@ -131,8 +134,10 @@ class Allotments:
             own = any(user in given for given in self._given.values() for user in mention.users)
             if between or said is None or own or mention in self._used:
                 continue
-            for given in self._given.values():
-                if all(user in given for user in before.users):
+            rated = any(user in self._given[name] for name in _RATES for user in before.users)
+            for given in [self._given[name] for name in (_RATES if rated else FIGURES_OF_USERS)]:
+                figures = {given[user].value if user in given else None for user in before.users}
+                if len(figures) == 1 and None not in figures:
                     given.update(dict.fromkeys(mention.users, given[before.users[0]]))
                     self._used.add(mention)
                     self._roles[mention] = "given"

@@ -28,15 +28,17 @@ from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Measure, Quantity, QuantityKind, measures
 from wirelessagent.language.request import numbered
 from wirelessagent.language.stated import CARRIERS, COUNTED_USERS, FOREIGN_UNIT, idioms, loose_numbers, may_be_a_limit
-from wirelessagent.language.text import WORD_OR_SIGN, Phrases, Span, is_within, overlaps
+from wirelessagent.language.text import WORD_OR_SIGN, Phrases, Span, clause_end, clause_start, is_within, overlaps
 from wirelessagent.language.units import unit_at
-from wirelessagent.language.word_tables import deferred, either
+from wirelessagent.language.word_tables import deferred, either, words_of
 
 BORROWING: Mapping[str, QuantityKind] = {
     "rate": "rate", "power": "power", "multiple": "rate", "outage": "ratio", "reliability": "ratio",
     "share": "ratio",
 }  # fmt: skip
 _SCALES = {"k": 10**3, "K": 10**3, "M": 10**6, "G": 10**9}
+_DECLARING = frozenset(words_of("figures", "one", "declares"))
+_DENIED = deferred(f"(?i){either('moods', 'negation', 'clause')}")
 _FAR = 200  # no two rates of one sentence are farther apart: another unit is meant
 _ALONE, _HALF, _BEHIND = (either("figures", "one", name) for name in ("alone", "half", "behind_alone"))
 _ONE = Phrases(  # "the others only one", against "one user"
@@ -151,14 +153,24 @@ def figures_of(
 
 
 def _declared(plain: str, measured: Sequence[Measure]) -> Iterator[Measure]:
-    """Each unit that no figure has, as that of one: "en megas: 6 para el 2", "1.2 for 3, 2 for 4, all in Mbit/s"."""
+    """Each unit that is said to be that of all figures: "en megas: 6 para el 2", "1.2 for 3, 2 for 4, all in Mbit/s".
+
+    It ends its clause, behind "in" or with nothing beside that says more.
+    """
     taken = [(each.start, each.end) for each in measured]
     for match in WORD_OR_SIGN.finditer(plain):
         unit = None if overlaps(match.span(), taken) else unit_at(plain, match.start())
-        if unit is not None and unit.kind != "ratio":
-            number = Number(value=Decimal(1), start=match.start(), end=match.start(), form="words")
-            taken.append((match.start(), unit.end))
-            yield Measure(number=number, unit=unit, start=match.start(), end=unit.end)
+        if unit is None or unit.kind == "ratio":
+            continue
+        start, taken = match.start(), [*taken, (match.start(), unit.end)]
+        first, last = clause_start(plain, start), clause_end(plain, unit.end)
+        ahead, behind = (
+            WORD_OR_SIGN.findall(plain[slice(*span)].lower()) for span in ((first, start), (unit.end, last))
+        )
+        said_in = ahead[-1:] in (["in"], ["en"]) and not behind and _DENIED.search(plain, first, start) is None
+        if said_in or {*ahead, *behind} <= _DECLARING:
+            number = Number(value=Decimal(1), start=start, end=start, form="words")
+            yield Measure(number=number, unit=unit, start=start, end=unit.end)
 
 
 def _value(

@@ -326,8 +326,9 @@ _RETURN = deferred(  # what stands between a figure and the one that takes its p
     rf"(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}))*+)\s*+)(?P<head>(?:{_TOKEN}\s*+){{0,5}}?)"
 )
 _ENDED = deferred(r"\s*(?:$|[,.;:!?)\uff0c\uff1b。、](?![0-9]))")
-_SURELY_A_RATE, _MOST_USERS, _NO_MORE = 20, 100, ("no", "不")
-_ANOTHER_USER = deferred(rf"(?i)(?:(?:{_FOR}|{_ANY_NOUN})\s*)++")
+_SURELY_A_RATE, _MOST_USERS, _DENIES = 20, 100, ("no", "non", "不", "不是")
+_GOES_ELSEWHERE = deferred(rf"(?i)\s*(?:给|对|(?!(?:{AND})\b)[A-Za-zÀ-ÿ])")
+_ANOTHER_USER = deferred(rf"(?i){_ANY_NOUN}")
 _OF_USERS = deferred(rf"(?i)(?:{_FOR}|{NUMBERED_USERS.removesuffix('$')})\s*$")
 _LIST_AHEAD = deferred(rf"(?i){_NUMBER}\s*号?\s*(?:,\s*)?(?:{_JOINT}|,)\s*(?:{_FOR}\s*)?(?:{_ANY_NOUN}\s*)?$")
 _LIST_BEHIND = deferred(rf"(?i)\s*号?\s*{_JOINT}\s*(?:{_FOR}\s*)?(?:{_ANY_NOUN}\s*)?{_NUMBER}")
@@ -371,8 +372,8 @@ def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
         user = _OF_USERS.search(plain, 0, wrong.start) is not None or plain[wrong.end : wrong.end + 1] in ("号", "號")
         repeated = ahead.endswith(head) or (user and _ANOTHER_USER.fullmatch(head) is not None)
         doubled = any(map(str.isalpha, said["pause"] + said["more"]))
-        if head and not doubled and not said["more"] and said["said"].casefold() in _NO_MORE:
-            continue  # "no service to 6, no service to 7"
+        if not (doubled or said["more"]) and said["said"].casefold() in _DENIES:
+            continue  # "no service to 6, no service to 7", "con 10 W, no 20 W"
         if its is not None and other is None:
             value = right.value or 0
             if not head and (value != int(value) or value >= _SURELY_A_RATE) and _ENDED.match(plain, right.end):
@@ -381,6 +382,8 @@ def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
         elif repeated and behind.lstrip().startswith(tail):
             paused = said["pause"] or said["means"] or doubled
             measured = other is not None and not user and (its is None or its.kind == other.kind)
+            if its is not None and other is not None and not tail and _GOES_ELSEWHERE.match(plain, other.end):
+                continue  # "1 Mbit/s each, rather 2 Mbit/s for user 3", "10 W, hold on, 8 W is the circuit power"
             able = not user or head or (right.value or 0) < _MOST_USERS
             alike = its is other and able and paused and (head or tail or not said["means"])
             if measured or (alike and _LIST_BEHIND.match(plain, right.end) is None):

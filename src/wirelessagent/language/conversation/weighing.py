@@ -306,11 +306,17 @@ def _stands(line: Line, intent: Intent, context: Context) -> bool:
         certain = missing or intent.topic not in ("other", "what_if", "concept", "capabilities")
         return intent.recogniser == NAME or certain
     if intent.kind == "clarify":
-        lowers = any(figure.value < 0 for figure in line.sentence.quantities)  # "power minus 4 W"
-        return context.awaits == "clarification" or (intent.asks in _CERTAIN and not lowers)
+        return context.awaits == "clarification" or (intent.asks in _CERTAIN and not _is_taken_off(line))
     answers_nothing = intent.topic in ("confirm", "reject") and context.awaits == "nothing"
     commands = intent.kind == "command" and intent.topic != "undo" and not answers_nothing and intent.confidence > SURE
     return intent.recogniser == NAME or commands
+
+
+def _is_taken_off(line: Line) -> bool:
+    """Whether a figure is to go from what holds: "power minus 4 W", but not "at most -4 W" or "up by minus 4 W"."""
+    below = [figure for figure in line.sentence.quantities if figure.value < 0]
+    bare = all(figure.comparator is None and not figure.text.startswith("-") for figure in below)
+    return bool(below) and bare and "up" not in line.sentence.concepts
 
 
 def _supposed(line: Line, found: Weighed) -> Intent:
