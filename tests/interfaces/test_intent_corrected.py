@@ -147,7 +147,8 @@ def test_a_share_before_many_blanks_is_read_at_once() -> None:
     [
         ("user 4: 0.7; user 6: 1.1, all in Mbit/s", {"4": 7e5, "6": 1.1e6}),
         ("以兆为单位：3号至少1.2，5号至少0.6", {"3": 1.2e6, "5": 6e5}),
-        ("in Mbit/s: user 3 at least 2", {"3": 2e6}), ("1号至少1.1，2号至少1.2，单位都是Mbit/s", {"1": 1.1e6, "2": 1.2e6}),
+        ("in Mbit/s: user 3 at least 2", {"3": 2e6}),
+        ("1号至少1.1，2号至少1.2，单位都是Mbit/s", {"1": 1.1e6, "2": 1.2e6}),
     ],
 )  # fmt: skip
 def test_a_unit_said_once_is_that_of_all_rates(text: str, expected: dict[str, float]) -> None:
@@ -157,10 +158,13 @@ def test_a_unit_said_once_is_that_of_all_rates(text: str, expected: dict[str, fl
 @pytest.mark.parametrize(
     "text",
     [
-        "Gbit/s would be nice, user 3 at least 2", "chaque kbit/s compte, l'utilisateur 3 au moins 2",
-        "not in kbit/s: user 3 at least 2", "as many Mbit/s as possible, budget 8",
+        "Gbit/s would be nice, user 3 at least 2",
+        "chaque kbit/s compte, l'utilisateur 3 au moins 2",
+        "not in kbit/s: user 3 at least 2",
+        "as many Mbit/s as possible, budget 8",
         "get the most Mbit/s, user 3 at least 500",
-        "user 3 gets 2 Mbit/s, user 5 as much as possible", "user 3 gets 2 Mbit/s, user 5 the same device",
+        "user 3 gets 2 Mbit/s, user 5 as much as possible",
+        "user 3 gets 2 Mbit/s, user 5 the same device",
         "Nutzer 3 mindestens 2 Mbit/s, Nutzer 5 gleich abschalten",
         "user 3 gets 2 Mbit/s, the same not for user 5",
     ],
