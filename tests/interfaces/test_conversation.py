@@ -100,6 +100,21 @@ def test_a_correction_corrects_what_was_stated_last_and_nothing_else() -> None:
     assert asked_for(session) == {"max_power_w": 5.0}
 
 
+@pytest.mark.parametrize(
+    ("line", "power_w"),
+    [
+        ("power minus 4 W", 6.0),
+        ("minus 4 W", 6.0),
+        ("it's 8 actually", 8.0),
+        ("at most -4 W", 10.0),
+        ("max -3 W", 10.0),
+    ],
+)
+def test_what_is_taken_off_lowers_a_limit_and_no_limit_is_negative(line: str, power_w: float) -> None:
+    session, _ = talk(request(max_power_w=10.0), line)
+    assert asked_for(session) == {"max_power_w": power_w}
+
+
 def test_one_users_limit_goes_where_a_limit_for_all_holds() -> None:
     session, (_, turn, other) = talk(
         request(min_rate_bps=1e6, max_rate_bps=5e6), "drop user 2's floor", "3号不用限速了"
