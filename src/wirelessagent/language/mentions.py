@@ -327,6 +327,8 @@ _RETURN = deferred(  # what stands between a figure and the one that takes its p
 )
 _ENDED = deferred(r"\s*(?:$|[,.;:!?)\uff0c\uff1b。、](?![0-9]))")
 _SURELY_A_RATE, _MOST_USERS, _DENIES = 20, 100, ("no", "non", "不", "不是")
+"""From where on a whole number without a unit is nobody's, up to where a number may be somebody's, and words that deny
+what follows as often as they take back what stands before, when they stand alone."""
 _GOES_ELSEWHERE = deferred(rf"(?i)\s*(?:给|对|(?!(?:{AND})\b)[A-Za-zÀ-ÿ])")
 _ANOTHER_USER = deferred(rf"(?i){_ANY_NOUN}")
 _OF_USERS = deferred(rf"(?i)(?:{_FOR}|{NUMBERED_USERS.removesuffix('$')})\s*$")
