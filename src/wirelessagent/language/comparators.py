@@ -160,8 +160,8 @@ def _before(text: str, start: int, end: int, *, kind: str, after: int) -> tuple[
             continue
         word = match.lastgroup
         if word in ("above", "below"):
-            negated = _is_denied(text, max(clause_start, match.start() - 60), match.start(), end)
-            negated = negated or _ASIDE.search(text, after, clause_start) is not None
+            nobody = _ASIDE.search(text, after, clause_start) is not None
+            negated = nobody or _is_denied(text, max(clause_start, match.start() - 60), match.start(), end)
             return ("at_most" if (word == "above") == negated else "at_least"), match.start()
         if word == "at_least" or word == "at_most" or word == "exactly":
             return word, match.start()

@@ -246,8 +246,7 @@ class Judged:
         self.users_of_the_cell = [numbered(name) for name in names]
         first = first_look(plain, quantities, names, taken)
         view = first.view()
-        known = [*(span for span, _ in named_in(plain)), *(match.span() for match in BY_PLACE.finditer(plain))]
-        self.strangers = [each for each in view.strangers() if not any(is_within(each, span) for span in known)]
+        self.strangers = _without_known(plain, view.strangers())
         if self.strangers:
             first = with_strangers(first, self.strangers)
             view = first.view()
@@ -362,6 +361,14 @@ class Judged:
         """How likely the figure at ``start`` is for each of the candidates, or, as None, for everybody."""
         chances = self._owners[start]
         return _shares({mention: chances[mention] for mention in (*candidates, None)})
+
+
+def _without_known(plain: str, strangers: Sequence[Span]) -> list[Span]:
+    """Names that no user is known by, without those of limits and of users by their place ("odd-numbered users")."""
+    if not strangers:
+        return []
+    known = [*(span for span, _ in named_in(plain)), *(match.span() for match in BY_PLACE.finditer(plain))]
+    return [each for each in strangers if not any(is_within(each, span) for span in known)]
 
 
 def _as_bounded(figure: Quantity, chances: Mapping[str, float], *, carriers: bool) -> Mapping[str, float]:

@@ -384,8 +384,9 @@ def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
         elif repeated and behind.lstrip().startswith(tail):
             paused = said["pause"] or said["means"] or doubled
             measured = other is not None and not user and (its is None or its.kind == other.kind)
-            if its is not None and other is not None and not tail and _GOES_ELSEWHERE.match(plain, other.end):
-                continue  # "1 Mbit/s each, rather 2 Mbit/s for user 3", "10 W, hold on, 8 W is the circuit power"
+            if measured and its is not None and not tail:
+                # "1 Mbit/s each, rather 2 Mbit/s for user 3", "10 W, hold on, 8 W is the circuit power"
+                measured = _GOES_ELSEWHERE.match(behind) is None
             able = not user or head or (right.value or 0) < _MOST_USERS
             alike = its is other and able and paused and (head or tail or not said["means"])
             if measured or (alike and _LIST_BEHIND.match(plain, right.end) is None):

@@ -187,7 +187,7 @@ def _unit_of_bits(match: re.Match[str]) -> Unit | None:
     is_bytes = not shouted and (core == "B" or core.lower().startswith(("byte", "o", "字节")))
     earlier = "每秒" in match.string[max(0, match.start() - 12) : match.start()]
     per_second = earlier or groups.get("per") is not None or groups.get("ps") is not None
-    counted = match.string[max(0, match.start() - 1) : match.start()] in ("千", "万", "百万")  # "800千比特"
+    counted = match.string[max(0, match.start() - 1) : match.start()] in ("千", "万")  # "800千比特"
     if not per_second and (is_bytes or not (prefix or counted)):
         return None
     factor = _scale(prefix, binary=bool(groups.get("binary"))) * (8 if is_bytes else 1)

@@ -15,7 +15,7 @@ from wirelessagent.language.moods import named_in
 from wirelessagent.language.numerals import Number, and_part, factors, numbers
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.request import numbered
-from wirelessagent.language.text import CJK, normalise, unaccented
+from wirelessagent.language.text import WORD, is_chinese, normalise, unaccented
 from wirelessagent.language.word_tables import deferred, table
 
 AnchorKind: TypeAlias = Literal[
@@ -33,7 +33,7 @@ _QUOTIENT = deferred(r"(?<![\d.,/])([1-9])\s?/\s?(1\d|[2-9])(?![\d/]|[.,]\d)")
 _INTEGER = deferred(r"(?<![\d.,])\d{1,4}(?![\d.,]*\d)")
 _LARGEST_NUMBER = 1e4
 """From where on a number without a unit is a rate."""
-_WORD = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s]")
+_WORD = deferred(rf"{WORD}|[^\w\s]")
 
 
 @dataclass(frozen=True, eq=False)
@@ -249,6 +249,6 @@ def _shares(language: str) -> tuple[Mapping[str, float], re.Pattern[str]]:
     """Words for shares and multiples with what they are worth, and the pattern that finds them."""
     listed = cast("dict[str, float]", table("figures", language)["shares"])
     shares = {own: share for word, share in listed.items() for own in (word, unaccented(word))}
-    parts = (rf"(?<!\w){re.escape(word)}(?!\w)" if not re.match(f"[{CJK}]", word) else re.escape(word)
+    parts = (rf"(?<!\w){re.escape(word)}(?!\w)" if not is_chinese(word) else re.escape(word)
              for word in sorted(shares, key=len, reverse=True))  # fmt: skip
     return shares, re.compile("|".join(parts))
