@@ -113,6 +113,17 @@ def test_what_would_leave_nothing_of_a_limit_is_not_done(said: str) -> None:
     assert held == {"max_rate_bps": 1e6}
 
 
+def test_no_figure_of_all_the_others_becomes_nothing() -> None:
+    held, _ = agreed_into(
+        "proportional fairness, 300 kbit/s each, user 2 at least 1 Mbit/s",
+        "Turn it down to the lowest level at which the 300 kbps guarantees hold.",
+    )
+    assert held["min_rate_bps"] in (3e5, {"all": 3e5, "2": 1e6})
+    zero = [change for change in changes_of(possible("300k less")) if change.effect
+            and any(isinstance(act, Limit) and act.value == 0 for act in change.acts)]  # fmt: skip
+    assert all(isinstance(act.whom, Named) for change in zero for act in change.acts if isinstance(act, Limit))
+
+
 @pytest.mark.parametrize(
     "said",
     ["at most 1e400 W", "9999 dB more", "-5000 dB", "user 3 at least 1e308 Gbit/s", "weight 1e400 for user 3",

@@ -48,7 +48,7 @@ def changes_of(possible: Possible) -> list[Change]:
 
 def _may_be(acts: Sequence[Act], effect: Effect) -> bool:
     """Whether each figure that acts set is one that a limit may have, and each that they come to may hold."""
-    limits = ((act, EVERYBODY if isinstance(act.whom, Everybody) else "") for act in acts if isinstance(act, Limit))
+    limits = ((act, "" if isinstance(act.whom, Named) else EVERYBODY) for act in acts if isinstance(act, Limit))
     return all(is_allowed(limit.kind, limit.value, user=user) for limit, user in limits) and all(
         not isinstance(value, float) or 0 < value < (1 if kind == "outage_probability" else math.inf)
         for (kind, _), value in effect
