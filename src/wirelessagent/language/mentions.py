@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.number_words import cardinals, listed, tens_and_ones, whole
-from wirelessagent.language.numerals import TIGHT_LIST, chinese_value, numbers
+from wirelessagent.language.numerals import TIGHT_LIST, chinese_value, factors, numbers
 from wirelessagent.language.text import AND, CJK, NUMBERED_USERS, Phrases, clause_start, is_chinese, normalise, overlaps
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import language_of
@@ -323,13 +323,14 @@ _TOKEN = rf"(?:[{CJK}]|(?:(?![{CJK}])[^\W\d_])++(?:['’](?:(?![{CJK}])[^\W\d_])
 _PAUSE = rf"(?:(?:{_FILLED})\s*+|{_BREAK})"
 _RETURN = deferred(  # what stands between a figure and the one that takes its place: words of either, what takes back
     rf"(?i)(?P<tail>(?:\s*+{_TOKEN}){{0,4}}?)\s*+(?P<back>(?P<pause>{_PAUSE}*+)(?P<said>{_CORRECTS}|(?P<means>{_MEANS}))"
-    rf"(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}))*+)\s*+)(?P<head>(?:{_TOKEN}\s*+){{0,5}}?)"
+    rf"(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}|是))*+)\s*+)(?P<head>(?:{_TOKEN}\s*+){{0,5}}?)"
 )
+_BOUND_BEHIND = "|".join(either("figures", "bounds", name) for name in ("at_least_behind", "at_most_behind"))
 _ENDED = deferred(r"\s*(?:$|[,.;:!?)\uff0c\uff1b。、](?![0-9]))")
 _SURELY_A_RATE, _MOST_USERS, _DENIES = 20, 100, ("no", "non", "不", "不是")
 """From where on a whole number without a unit is nobody's, up to where a number may be somebody's, and words that deny
 what follows as often as they take back what stands before, when they stand alone."""
-_GOES_ELSEWHERE = deferred(rf"(?i)\s*(?:给|对|(?!(?:{AND})\b)[A-Za-zÀ-ÿ])")
+_GOES_ELSEWHERE = deferred(rf"(?i)\s*(?:给|对|(?!(?:{AND})\b|{_BOUND_BEHIND})[A-Za-zÀ-ÿ])")
 _ANOTHER_USER = deferred(rf"(?i){_ANY_NOUN}")
 _OF_USERS = deferred(rf"(?i)(?:{_FOR}|{NUMBERED_USERS.removesuffix('$')})\s*$")
 _LIST_AHEAD = deferred(rf"(?i){_NUMBER}\s*号?\s*(?:,\s*)?(?:{_JOINT}|,)\s*(?:{_FOR}\s*)?(?:{_ANY_NOUN}\s*)?$")
@@ -364,7 +365,10 @@ def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
     A figure without a unit in the place of one that has it gets the unit, where it is nobody's number. What of a list
     is taken back, nobody knows: "users 1 and 2, no, 3".
     """
-    found = [(number, unit_at(plain, number.end)) for number in numbers(plain)]
+    times = list(factors(plain))
+    counted = [each for each in numbers(plain) if not overlaps((each.start, each.end), [(t.start, t.end) for t in times])]
+    figures = sorted((*times, *counted), key=lambda each: each.start)
+    found = [(figure, None if figure in times else unit_at(plain, figure.end)) for figure in figures]
     for (wrong, its), (right, other) in itertools.pairwise(found):
         said = _RETURN.fullmatch(plain, its.end if its else wrong.end, right.start)
         if said is None or wrong.value == right.value or _LIST_AHEAD.search(plain, 0, wrong.start):
@@ -384,6 +388,7 @@ def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
         elif repeated and behind.lstrip().startswith(tail):
             paused = said["pause"] or said["means"] or doubled
             measured = other is not None and not user and (its is None or its.kind == other.kind)
+            measured |= wrong.form == right.form == "times"
             if measured and its is not None and not tail:
                 # "1 Mbit/s each, rather 2 Mbit/s for user 3", "10 W, hold on, 8 W is the circuit power"
                 measured = _GOES_ELSEWHERE.match(behind) is None

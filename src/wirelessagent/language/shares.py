@@ -1,0 +1,150 @@
+"""What a sentence leaves to be worked out, put in its words: "80 % of 25 W", "half of that", "counts 50 % more".
+
+A share or a multiple of a figure that the sentence says becomes what it comes to, at the place where it stands, so that
+everything behind reads one figure: "user 8 half of that" is "user 8 1Mbps". Which words join a share to its figure
+is data (``figures/<language>.toml``, ``[shares_of]``). A share of what holds, and not of what is said, is none of these.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from wirelessagent.language.numerals import factors
+from wirelessagent.language.quantities import measures
+from wirelessagent.language.text import clause_start, normalise, overlaps
+from wirelessagent.language.word_tables import any_word, deferred, words_of
+
+_OF, _BETWEEN, _WHICH, _MORE, _LESS, _THAN = (
+    rf"(?<!\w){any_word('figures', 'shares_of', name)}(?!\w)"
+    for name in ("of", "between", "of_which", "more", "less", "than")
+)
+_OF_IT = any_word("figures", "shares_of", "of_it")
+_WHOSE = rf"(?:\s*{_BETWEEN})*\s*"
+_JOINED = deferred(rf"(?i)\s*{_OF}{_WHOSE}")
+_BEHIND = deferred(r"\s*(?:之中|当中|里面|里|中)?的\s*")
+_ARTICLE = deferred(rf"(?i)\b{any_word('figures', 'users', 'articles')}\s+$")
+_ALL_OF = deferred(rf"(?i)(?:^|[,;:.(\uff0c；：。])\s*(?P<of>{_OF}{_WHOSE})$")
+_ON = r"(?:[^\W\d]+\s+){0,6}"
+_UP_TO_SHARE, _OF_WHICH = deferred(rf"(?i)\s*{_ON}"), deferred(rf"(?i)\s*(?:\w+\s*)?[,\uff0c]?\s*{_WHICH}\s+{_ON}")
+_OF_IT_BEHIND = deferred(rf"(?i)\s*{_OF_IT}(?!\w)(?!\s+{any_word('figures', 'shares_of', 'likened')}(?!\w))")
+_OF_IT_AHEAD = deferred(r"(?:其中|其|它|这个数?|该值)的?\s*$")
+_CHANGED = deferred(rf"(?i)\s*(?:(?P<more>{_MORE})|(?P<less>{_LESS}))(?:\s+{_THAN})?")
+_CHANGED_AHEAD = deferred(r"(?:(?P<more>多|高)|(?P<less>少|低))\s*$")
+_COUNTS = deferred(rf"(?i)\b{any_word('figures', 'users', 'weighs')}\b|权重|权|算")
+_NO_SHARE = words_of("figures", "shares_of", "no_share")
+_RARELY, _USUALLY = 0.1, 0.9
+"""Up to and from where on a percentage of a figure may as well be how often it is to be kept, or missed."""
+_STEPS = {"power": ("W", ((1.0, "W"), (1e-3, "mW"), (1e-6, "μW"))),
+          "rate": ("bps", ((1e6, "Mbps"), (1e3, "kbps"), (1.0, "bps")))}  # fmt: skip
+
+
+class _Figure(NamedTuple):
+    kind: str
+    value: float
+    start: int
+    end: int
+
+
+def worked_out(text: str) -> str:
+    """The sentence with what its shares come to, all else at its place.
+
+    >>> " ".join(worked_out("max rate at 80 % of 25 W, user 8 at least 2 Mbit/s, user 7 half of that").split())
+    'max rate at 20W, user 8 at least 2 Mbit/s, user 7 1Mbps'
+    """
+    for start, end, instead in _come_to(normalise(text)):
+        article = _ARTICLE.search(text, 0, start)
+        start = article.start() if article and instead.endswith(("W", "bps")) else start
+        if len(instead) <= end - start:
+            text = text[:start] + instead.rjust(end - start) + text[end:]
+    return text
+
+
+def _come_to(plain: str) -> Iterator[tuple[int, int, str]]:
+    """The spans of shares, each with its figure where that is only what it is a share of, and what they come to."""
+    figures = list(_figures(plain))
+    for share in sorted(_shares(plain), key=lambda each: each.start):
+        ahead = [figure for figure in figures if figure.end <= share.start]
+        behind = [figure for figure in figures if figure.start >= share.end]
+        if _counts(plain, share.start):  # "counts 50 % more"
+            yield from _weighed(plain, share)
+        elif behind and _is_part(share) and _JOINED.fullmatch(plain, share.end, behind[0].start):  # "80 % of 25 W"
+            yield share.start, behind[0].end, _written(behind[0], share.value)
+        elif ahead:
+            found = list(_of_one_ahead(plain, share, ahead[-1]))
+            if found:  # "twice that for user 2, and twice that for user 3"
+                figures.append(ahead[-1]._replace(value=ahead[-1].value * share.value, start=share.start, end=share.end))
+                figures.sort(key=lambda each: each.start)
+            yield from found
+
+
+def _is_part(share: _Figure) -> bool:
+    return share.kind != "ratio" or _RARELY < share.value < _USUALLY
+
+
+def _of_one_ahead(plain: str, share: _Figure, base: _Figure) -> Iterator[tuple[int, int, str]]:
+    """A share of a figure that stands before it."""
+    worth = _written(base, share.value)
+    of_all = _ALL_OF.search(plain, 0, base.start)
+    it, its = _OF_IT_BEHIND.match(plain, share.end), _OF_IT_AHEAD.search(plain, base.end, share.start)
+    if _OF_WHICH.fullmatch(plain, base.end, share.start):
+        yield share.start, share.end, worth
+    elif its is not None:
+        yield its.start(), share.end, worth
+    elif not _is_part(share):
+        return
+    elif _BEHIND.fullmatch(plain, base.end, share.start):  # 30W的六成
+        yield base.start, share.end, worth
+    elif of_all is not None and _UP_TO_SHARE.fullmatch(plain, base.end, share.start):  # "of our 40 W at most a quarter"
+        yield of_all.start("of"), base.end, ""
+        yield share.start, share.end, worth
+    elif it is not None:
+        yield share.start, it.end(), worth
+
+
+def _weighed(plain: str, share: _Figure) -> Iterator[tuple[int, int, str]]:
+    """By how much more somebody counts, as how many times."""
+    ahead, behind = _CHANGED_AHEAD.search(plain, 0, share.start), _CHANGED.match(plain, share.end)
+    found = ahead or behind
+    if found is not None and share.kind == "ratio":
+        times = 1 + share.value if found["more"] else 1 - share.value
+        start, end = (ahead.start(), share.end) if ahead else (share.start, found.end())
+        yield start, end, f"{times:.4g}x"
+
+
+def _counts(plain: str, place: int) -> bool:
+    """Whether somebody counts, or weighs, in the clause of a place."""
+    return _COUNTS.search(plain, clause_start(plain, place), place) is not None
+
+
+def _shares(plain: str) -> Iterator[_Figure]:
+    """Percentages, fractions and multiples."""
+    times = [_Figure("times", float(each.value), each.start, each.end) for each in factors(plain) if each.value]
+    yield from times
+    for each in measures(plain):
+        known = overlaps((each.start, each.end), [(one.start, one.end) for one in times])
+        if known or each.number.value is None or plain[each.start : each.end].lower().endswith(_NO_SHARE):
+            continue
+        if each.unit is not None and each.unit.kind == "ratio":
+            yield _Figure("ratio", each.unit.value(each.number.value), each.start, each.end)
+        elif each.unit is None and each.factor == 1 and 0 < each.number.value < 1:
+            yield _Figure("part", float(each.number.value), each.start, each.end)
+
+
+def _figures(plain: str) -> Iterator[_Figure]:
+    """Powers and rates."""
+    for each in measures(plain):
+        if each.unit is not None and each.unit.kind != "ratio" and each.number.value is not None:
+            yield _Figure(each.unit.kind, each.unit.value(each.number.value), each.start, each.end)
+
+
+def _written(base: _Figure, share: float) -> str:
+    """What a share of a figure comes to, with no three digits behind a point, which may part thousands."""
+    value = base.value * share
+    unit, steps = _STEPS[base.kind]
+    for step, name in steps:
+        said = f"{value / step:.6g}"
+        if value >= step and re.search(r"\.\d{3}$|e", said) is None:
+            return said + name
+    return f"{value:.0f}{unit}"
