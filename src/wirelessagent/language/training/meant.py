@@ -224,12 +224,13 @@ class Meant:
             return {role for role, is_one in meant.items() if is_one} or {"none", "missing"}
         if figure.kind == "power":
             return {name for name, value in self._powers.items() if _close(value, figure.value)} or _NOTHING
-        roles = {
-            name
+        whose = {
+            name: {user for user, value in self._values.get(name, {}).items() if _close(value, figure.value)}
             for name in ("min_rate_bps", "max_rate_bps")
-            if any(_close(value, figure.value) for value in self._values.get(name, {}).values())
         }
-        return {"both"} if len(roles) > 1 and set(self._rates) == {figure.value} else roles or _NOTHING
+        if set.intersection(*whose.values()) and set(self._rates) == {figure.value}:
+            return {"both"}
+        return {name for name, users in whose.items() if users} or _NOTHING
 
     def of_user(self, mention: Mention, found: Sequence[Mention]) -> set[str]:
         users = set(mention.users)
