@@ -27,6 +27,8 @@ def reading(text: str) -> dict[str, Any]:
         ("max rate with a third of the 36 W", {"max_power_w": 12.0}),
         ("Of our 40 W use no more than a quarter, max rate", {"max_power_w": 10.0}),
         ("Von den 36 W nur ein Drittel nutzen, Summenrate maximieren", {"max_power_w": 12.0}),
+        ("max rate, 5 W below our full 25 W at most", {"max_power_w": 20.0}),
+        ("max rate with 10 W minus 10 %", {"max_power_w": 9.0}),
         ("总功率取30W的六成，吞吐量最大", {"max_power_w": 18.0}),
         ("总功率10W，每个子载波最多占其中的1%，让最慢用户最快", {"max_power_w": 10.0, "subcarrier_max_power_w": 0.1}),
         ("15 watts total, of which no single subcarrier gets more than 2 percent, highest sum rate",
@@ -51,7 +53,8 @@ def test_a_share_of_a_figure_is_what_it_comes_to(text: str, values: dict[str, An
     ["99 % of the time at least 1 Mbit/s for user 3", "98 percent of 400 kbit/s for all", "5 % outage and 20 W",
      "user 3 counts double, 12 W", "twice as much as now", "fiabilidad del 99 %, circuito de 3 W",
      "cada uno con una media de 300 kbit/s", "1 Mbit/s for 2, twice as much as the best for 3",
-     "half of the users at 1 Mbit/s", "a power of 20 W and 5 % outage"],
+     "half of the users at 1 Mbit/s", "a power of 20 W and 5 % outage",
+     "users at 2 Mbit/s, below 5 W", "15 W less 200 kbit/s"],
 )  # fmt: skip
 def test_what_is_no_share_of_a_figure_stays(text: str) -> None:
     assert worked_out(text) == text

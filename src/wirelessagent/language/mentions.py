@@ -81,7 +81,7 @@ _ZH_LIST = rf"(?:{_zh_list('[0-9]{1,4}')}|{_zh_list('[一二三四五六七八�
 _ZH = deferred(
     rf"(?<!其他)(?<!其它)(?<!其余)(?:{ZH_NOUN}\s*(?P<after>{_ZH_LIST})(?!\s*[个名位台户兆瓦点起样直定边次共切致下])号?)"
     rf"|(?<![权重乘取为=.0-9月])(?!(?<=重[设是给算])[0-9]{{1,4}}\s*[,\uff0c]|(?<=[第之]){_ZH_NUMBER}\s*[,\uff0c、])(?P<hao>{_ZH_LIST})\s*[号號](?!线|楼|院|机房|站|小区|基站|人|桌|门|馆|店|厅|早|晚)\s*{ZH_NOUN}?"
-    rf"|第\s*(?P<nth>{_ZH_NUMBER})\s*[个位名]\s*{ZH_NOUN}"
+    rf"|(?<!倒数)第\s*(?P<nth>{_ZH_NUMBER})\s*[个位名]\s*{ZH_NOUN}"
 )
 _OTHERS = Phrases(
     either("figures", "users", "others"),

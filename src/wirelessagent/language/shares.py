@@ -1,12 +1,14 @@
-"""What a sentence leaves to be worked out, put in its words: "80 % of 25 W", "half of that", "counts 50 % more".
+"""What a sentence leaves to be worked out, put in its words: "80 % of 25 W", "half of that", "5 W below the full 20 W".
 
-A share or a multiple of a figure that the sentence says becomes what it comes to, at the place where it stands, so that
+A share or a multiple of a figure that the sentence says, or so much less than it, becomes what it comes to, at the place where it stands, so that
 everything behind reads one figure: "user 8 half of that" is "user 8 1Mbps". Which words join a share to its figure
 is data (``figures/<language>.toml``, ``[shares_of]``). A share of what holds, and not of what is said, is none of these.
 """
 
 from __future__ import annotations
 
+import itertools
+import math
 import re
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -20,8 +22,11 @@ _OF, _BETWEEN, _WHICH, _MORE, _LESS, _THAN = (
     rf"(?<!\w){any_word('figures', 'shares_of', name)}(?!\w)"
     for name in ("of", "between", "of_which", "more", "less", "than")
 )
+_BELOW, _MINUS = (any_word("figures", "shares_of", name) for name in ("below", "minus"))
 _OF_IT = any_word("figures", "shares_of", "of_it")
 _WHOSE = rf"(?:\s*{_BETWEEN})*\s*"
+_LESS_THAN = deferred(rf"(?i)\s*(?:{_BELOW})(?:\s*{_BETWEEN})+\s*")
+_TAKEN_OFF = deferred(rf"(?i)\s*(?:{_MINUS}|减去?|少)\s*")
 _JOINED = deferred(rf"(?i)\s*{_OF}{_WHOSE}")
 _BEHIND = deferred(r"\s*(?:之中|当中|里面|里|中)?的\s*")
 _ARTICLE = deferred(rf"(?i)\b{any_word('figures', 'users', 'articles')}\s+$")
@@ -64,19 +69,26 @@ def worked_out(text: str) -> str:
 def _come_to(plain: str) -> Iterator[tuple[int, int, str]]:
     """The spans of shares, each with its figure where that is only what it is a share of, and what they come to."""
     figures = list(_figures(plain))
-    for share in sorted(_shares(plain), key=lambda each: each.start):
+    for one, other in itertools.pairwise(figures):
+        below, off = (pattern.fullmatch(plain, one.end, other.start) for pattern in (_LESS_THAN, _TAKEN_OFF))
+        less, most = (other, one) if off else (one, other)
+        if (below or off) and one.kind == other.kind and less.value < most.value:  # "5 W below our 25 W", "25 W minus 5 W"
+            yield one.start, other.end, _written(most, 1 - less.value / most.value)
+    shares = sorted(_shares(plain), key=lambda each: each.start)
+    for last, share in zip((None, *shares), shares, strict=False):
         ahead = [figure for figure in figures if figure.end <= share.start]
         behind = [figure for figure in figures if figure.start >= share.end]
+        base = ahead[-1] if ahead and (last is None or last.start < ahead[-1].end) else None
         if _counts(plain, share.start):  # "counts 50 % more"
             yield from _weighed(plain, share)
         elif behind and _is_part(share) and _JOINED.fullmatch(plain, share.end, behind[0].start):  # "80 % of 25 W"
             yield share.start, behind[0].end, _written(behind[0], share.value)
-        elif ahead:
-            found = list(_of_one_ahead(plain, share, ahead[-1]))
-            if found:  # "twice that for user 2, and twice that for user 3"
-                figures.append(ahead[-1]._replace(value=ahead[-1].value * share.value, start=share.start, end=share.end))
-                figures.sort(key=lambda each: each.start)
-            yield from found
+        elif base is not None and -1 < share.value < 0 and not plain[base.end : share.start].strip():  # "10 W minus 10 %"
+            yield base.start, share.end, _written(base, 1 + share.value)
+        elif base is not None and share.value > 0:
+            again = bool(behind) and math.isclose(behind[0].value, base.value * share.value, rel_tol=1e-3)
+            for start, end, worth in _of_one_ahead(plain, share, base):  # "twice that, namely 1.5 Mbit/s"
+                yield start, end, "" if again else worth
 
 
 def _is_part(share: _Figure) -> bool:
