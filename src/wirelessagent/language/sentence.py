@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, cast
 from wirelessagent import plugins
 from wirelessagent.language import goals
 from wirelessagent.language.constraints import read_constraints
+from wirelessagent.language.dictated import as_meant
 from wirelessagent.language.goals import Goal
-from wirelessagent.language.mentions import mentions, without_corrected
+from wirelessagent.language.mentions import mentions
 from wirelessagent.language.moods import classes_in
 from wirelessagent.language.order_model import Frame, frame_of, shipped_order_model
 from wirelessagent.language.quantities import parse_quantities
-from wirelessagent.language.shares import worked_out
 from wirelessagent.language.sentence_model import START, Chances, Word, shipped_sentences
 from wirelessagent.language.stated import Reading
 from wirelessagent.language.text import WORD_OR_SIGN, Span, clauses, is_chinese, normalise, overlaps, unaccented
@@ -49,7 +49,7 @@ class Sentence:
     def __init__(
         self, text: str, own: tuple[OwnWords, ...], *, names: Sequence[str] = (), max_power_w: float = 20.0
     ) -> None:
-        said = without_corrected(worked_out(text))
+        said = as_meant(text)
         self.text, self.plain, self.language = text, normalise(said), language_of(text)
         self._own, self._names, self._max_power_w, self.quantities = own, names, max_power_w, parse_quantities(said)
         self.reading: Reading = read_constraints(

@@ -30,10 +30,11 @@ import numpy as np
 import numpy.typing as npt
 from scipy import optimize, sparse
 
+from wirelessagent.language.dictated import as_meant
 from wirelessagent.language.figure_roles import BUCKETS, LABELS, ROLES_FILE, View, hashed
 from wirelessagent.language.intent import EVERYBODY
 from wirelessagent.language.judged import BORROWING, Look, first_look, second_look
-from wirelessagent.language.mentions import Mention, mentions, without_corrected
+from wirelessagent.language.mentions import Mention, mentions
 from wirelessagent.language.quantities import measures, parse_quantities
 from wirelessagent.language.text import USER_NOUN, normalise, replaced
 from wirelessagent.language.training.examples import FILLED, FILLINGS, OBJECTIVES, framed, spoken
@@ -198,7 +199,7 @@ class Example:
 
 def _look(text: str) -> Look:
     """What a sentence holds, without what it takes back, before anybody asks what its numbers are."""
-    said = without_corrected(text)
+    said = as_meant(text)
     return first_look(normalise(said), parse_quantities(said))
 
 
