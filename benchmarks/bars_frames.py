@@ -16,11 +16,11 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, cast
 
-from bars_talks import is_same, plain
+from bars_talks import by_user, is_same
 
 from wirelessagent.language.conversation import understood
 from wirelessagent.language.guard import CHANGING
-from wirelessagent.language.intent import EVERYBODY, Intent
+from wirelessagent.language.intent import Intent
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.request import numbered, users_in
@@ -54,18 +54,10 @@ def verdict(row: dict[str, Any], intent: Intent) -> str:
         return "right"
     if intent.kind != "allocate":
         return "asked"
-    meant, found = (_plain(given) for given in (row.get("constraints", {}), intent.constraints))
+    meant, found = (by_user(given, 0.0) for given in (row.get("constraints", {}), intent.constraints))
     aim = row.get("objective") in (None, intent.objective)
     same = meant.keys() == found.keys() and all(is_same(value, found[name]) for name, value in meant.items())
     return "right" if aim and same else "wrong figures"
-
-
-def _plain(constraints: Mapping[str, Any]) -> dict[str, Any]:
-    """Constraints in one form; people round what a dBm is in watts, and whoever else weighs 1 weighs what all do."""
-    found = {name: plain(value, 0.0) for name, value in constraints.items()}
-    if isinstance(found.get("weights"), dict) and found["weights"].get(EVERYBODY) == 1.0:
-        del found["weights"][EVERYBODY]
-    return found
 
 
 def score(rows: list[dict[str, Any]], context: Context = FIRST) -> list[tuple[dict[str, Any], str]]:
