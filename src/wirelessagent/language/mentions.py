@@ -77,7 +77,7 @@ def _zh_list(number: str) -> str:
     return rf"{number}(?:(?:{joint}){number}|\s*号\s*{number}(?=\s*号))*"
 
 
-_ZH_LIST = rf"(?:{_zh_list('[0-9]{1,4}')}|{_zh_list('[一二三四五六七八九十]{1,3}')})"
+_ZH_LIST = rf"(?:{_zh_list('[0-9]{1,2}(?![0-9])')}|[0-9]{{1,4}}|{_zh_list('[一二三四五六七八九十]{1,3}')})"
 _ZH = deferred(
     rf"(?<!其他)(?<!其它)(?<!其余)(?:{ZH_NOUN}\s*(?P<after>{_ZH_LIST})(?!\s*[个名位台户兆瓦点起样直定边次共切致下])号?)"
     rf"|(?<![权重乘取为=.0-9月])(?!(?<=重[设是给算])[0-9]{{1,4}}\s*[,\uff0c]|(?<=[第之]){_ZH_NUMBER}\s*[,\uff0c、])(?P<hao>{_ZH_LIST})\s*[号號](?!线|楼|院|机房|站|小区|基站|人|桌|门|馆|店|厅|早|晚)\s*{ZH_NOUN}?"
@@ -129,7 +129,9 @@ LISTED = deferred(  # between the figures of a list
     r"respectively))\s*"
 )
 _EACH_OF = deferred(rf"(?i)(?:{either('figures', 'users', 'each_of')})\s*{_ANY_NOUN}?\s*(?:from|de|von|entre)?\s*$")
-_LONGEST_RANGE, _NEAR = 100, 25
+_LONGEST_RANGE, _NEAR, _MOST_USERS, _FAR_OFF = 100, 25, 100, 5
+"""How many users a range may have, how near what leaves out stands, and from where on a number behind users that is so
+many times theirs is none."""
 _RANGE = deferred(rf"(?i){_TO}(?:l')?|\s*[到至]\s*")
 _UP_TO = deferred(rf"(?i)号?{_TO}|\s*号?\s*[到至]\s*")
 _ITEM = deferred(rf"(?i)[0-9]+|\b{_ORDINAL}\b|{WORD_NUMBER}\b|[一二三四五六七八九十]+")
@@ -217,6 +219,9 @@ def _without_quantity(plain: str, match: re.Match[str], group: str) -> int:
         reaches = _UP_TO.fullmatch(plain, offset + one.end(), offset + other.start()) is not None
         if reaches and int(_number(other.group()) or 0) < int(_number(one.group()) or 0):
             return offset + one.end()
+    far = [int(_number(part.group()) or 0) for part in parts[-2:]]
+    if len(far) > 1 and far[1] >= _MOST_USERS and far[1] > _FAR_OFF * far[0]:  # "users 1 and 2, 500"
+        return offset + parts[-2].end()
     measured = bool(parts) and unit_at(plain, offset + parts[-1].end()) is not None
     if measured and len(parts) == 2 and is_of_each(plain, match.start(group)):
         return offset  # "each user 1 to 5 Mbit/s"
@@ -327,9 +332,9 @@ _RETURN = deferred(  # what stands between a figure and the one that takes its p
 )
 _BOUND_BEHIND = "|".join(either("figures", "bounds", name) for name in ("at_least_behind", "at_most_behind"))
 _ENDED = deferred(r"\s*(?:$|[,.;:!?)\uff0c\uff1b。、](?![0-9]))")
-_SURELY_A_RATE, _MOST_USERS, _DENIES = 20, 100, ("no", "non", "不", "不是")
-"""From where on a whole number without a unit is nobody's, up to where a number may be somebody's, and words that deny
-what follows as often as they take back what stands before, when they stand alone."""
+_SURELY_A_RATE, _DENIES = 20, ("no", "non", "不", "不是")
+"""From where on a whole number without a unit is nobody's, and words that deny what follows as often as they take back
+what stands before, when they stand alone."""
 _GOES_ELSEWHERE = deferred(rf"(?i)\s*(?:给|对|(?!(?:{AND})\b|{_BOUND_BEHIND})[A-Za-zÀ-ÿ])")
 _ANOTHER_USER = deferred(rf"(?i){_ANY_NOUN}")
 _OF_USERS = deferred(rf"(?i)(?:{_FOR}|{NUMBERED_USERS.removesuffix('$')})\s*$")
@@ -366,7 +371,8 @@ def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
     is taken back, nobody knows: "users 1 and 2, no, 3".
     """
     times = list(factors(plain))
-    counted = [each for each in numbers(plain) if not overlaps((each.start, each.end), [(t.start, t.end) for t in times])]
+    spans = [(each.start, each.end) for each in times]
+    counted = (each for each in numbers(plain) if not overlaps((each.start, each.end), spans))
     figures = sorted((*times, *counted), key=lambda each: each.start)
     found = [(figure, None if figure in times else unit_at(plain, figure.end)) for figure in figures]
     for (wrong, its), (right, other) in itertools.pairwise(found):

@@ -1,8 +1,9 @@
-"""What a sentence leaves to be worked out, put in its words: "80 % of 25 W", "half of that", "5 W below the full 20 W".
+"""What a sentence leaves to be worked out, put in its words: "80 % of 25 W", "half of that", "5 W below our 20 W".
 
-A share or a multiple of a figure that the sentence says, or so much less than it, becomes what it comes to, at the place where it stands, so that
-everything behind reads one figure: "user 8 half of that" is "user 8 1Mbps". Which words join a share to its figure
-is data (``figures/<language>.toml``, ``[shares_of]``). A share of what holds, and not of what is said, is none of these.
+A share or a multiple of a figure that the sentence says, or so much less than it, becomes what it comes to, at the
+place where it stands, so that everything behind reads one figure: "user 8 half of that" is "user 8 1Mbps". Which words
+join a share to its figure is data (``figures/<language>.toml``, ``[shares_of]``). A share of what holds, and not of
+what is said, is none of these.
 """
 
 from __future__ import annotations
@@ -72,7 +73,7 @@ def _come_to(plain: str) -> Iterator[tuple[int, int, str]]:
     for one, other in itertools.pairwise(figures):
         below, off = (pattern.fullmatch(plain, one.end, other.start) for pattern in (_LESS_THAN, _TAKEN_OFF))
         less, most = (other, one) if off else (one, other)
-        if (below or off) and one.kind == other.kind and less.value < most.value:  # "5 W below our 25 W", "25 W minus 5 W"
+        if (below or off) and one.kind == other.kind and less.value < most.value:  # "5 W below our 25 W"
             yield one.start, other.end, _written(most, 1 - less.value / most.value)
     shares = sorted(_shares(plain), key=lambda each: each.start)
     for last, share in zip((None, *shares), shares, strict=False):
@@ -83,8 +84,8 @@ def _come_to(plain: str) -> Iterator[tuple[int, int, str]]:
             yield from _weighed(plain, share)
         elif behind and _is_part(share) and _JOINED.fullmatch(plain, share.end, behind[0].start):  # "80 % of 25 W"
             yield share.start, behind[0].end, _written(behind[0], share.value)
-        elif base is not None and -1 < share.value < 0 and not plain[base.end : share.start].strip():  # "10 W minus 10 %"
-            yield base.start, share.end, _written(base, 1 + share.value)
+        elif base is not None and -1 < share.value < 0 and not plain[base.end : share.start].strip():
+            yield base.start, share.end, _written(base, 1 + share.value)  # "10 W minus 10 %"
         elif base is not None and share.value > 0:
             again = bool(behind) and math.isclose(behind[0].value, base.value * share.value, rel_tol=1e-3)
             for start, end, worth in _of_one_ahead(plain, share, base):  # "twice that, namely 1.5 Mbit/s"
