@@ -197,10 +197,15 @@ class _Reader:
         return self._result(value, linked=linked, is_article=is_article and self._place == 1)
 
     def _result(self, value: Decimal | None, *, linked: bool, is_article: bool = False) -> Spoken:
-        end = self._place
-        while linked and end < len(self._words) and self._words[end] in self._grammar.links:
-            end += 1
+        end = self._place + (self._links() if linked else 0)
         return Spoken(value=value, words=self._place, linked=end, is_article=is_article)
+
+    def _links(self) -> int:
+        """How many words stand here that link a part with its unit: "of a"."""
+        ahead = 0
+        while self._word(ahead) in self._grammar.links:
+            ahead += 1
+        return ahead
 
     def _word(self, ahead: int = 0) -> str:
         place = self._place + ahead
@@ -227,20 +232,21 @@ class _Reader:
         start = self._place
         while word := self._word():
             value = self._value(word)
-            if word in self._grammar.articles and group is None and self._place == start and value is None:
-                value = Decimal(1)
+            scale, times = self._grammar.scales.get(word, 0), _ONE if group is None else group
+            if value is None and word in self._grammar.articles and self._place == start:
+                value = _ONE
             if value is not None and self._fits(value, group, room, outer):
                 group, room = (group or Decimal(0)) + value, self._room(value)
             elif group is not None and self._language == "fr" and word in ("vingt", "vingts") and group % 10 == 4:
                 group, room = group + 76, Decimal(20)
-            elif word in self._grammar.dozens and not total and (group is None or group < 100):
+            elif word in self._grammar.dozens and not total and times < 100:
                 self._place += 1
-                return (_ONE if group is None else group) * 12
-            elif self._grammar.scales.get(word) == 100 and (group is None or 0 < group < 100):
-                group, room = (_ONE if group is None else group) * 100, Decimal(100)
-            elif 100 < self._grammar.scales.get(word, 0) < outer and group != 0:
-                outer = Decimal(self._grammar.scales[word])
-                total, group = total + (_ONE if group is None else group) * outer, None
+                return times * 12
+            elif scale == 100 and 0 < times < 100:
+                group, room = times * 100, Decimal(100)
+            elif 100 < scale < outer and times != 0:
+                outer = Decimal(scale)
+                total, group = total + times * outer, None
             elif word in self._grammar.joins and self._joins(group, room, outer if total else None):
                 pass
             else:
@@ -300,23 +306,18 @@ class _Reader:
             return share if value is None else value * share
         if value is None or self._word() not in self._grammar.joins:
             return value
-        start = self._place
-        self._place += 1
-        times: Decimal | None = _ONE
-        if not self._is_part(0):
-            times = _ONE if self._word() in self._grammar.articles else self._value(self._word())
-            self._place += 1
-        if times is None or not self._is_part(0):
-            self._place = start
+        count = self._word(1)
+        is_part = count in self._grammar.parts
+        times = _ONE if is_part or count in self._grammar.articles else self._value(count)
+        ahead = 1 if is_part else 2
+        if times is None or not self._is_part(ahead):
             return value
-        self._place += 1
-        return value + times * self._grammar.parts[self._words[self._place - 1]]
+        self._place += ahead + 1
+        return value + times * self._grammar.parts[self._word(-1)]
 
     def _scaled(self, value: Decimal, *, linked: bool) -> tuple[Decimal, bool]:
         """The value times a scale behind it: "half a million", "two and a half thousand", "half a dozen"."""
-        ahead = 0
-        while linked and self._word(ahead) in self._grammar.links:
-            ahead += 1
+        ahead = self._links() if linked else 0
         word = self._word(ahead)
         scale = 12 if word in self._grammar.dozens else self._grammar.scales.get(word)
         if scale is None or (value == int(value) and not linked):
