@@ -113,7 +113,7 @@ def comparison(text: str, start: int, end: int, *, kind: str, after: int) -> Com
         return Comparison(comparator=found[0], start=found[1], end=end)
     last = _LAST_WORD.match(text, end)
     if last is not None and behind is None:
-        said = next(bound for bound in _BOUNDS if last[bound])
+        said: Comparator = next(bound for bound in _BOUNDS if last[bound])
         return Comparison(comparator=said, start=start, end=last.end())
     others = _RATE_RE if kind == "power" else _POWER_RE  # "max" is not the figure's where "max rate" begins
     if behind is not None and others.match(text[behind.end() : behind.end() + 12].lstrip()) is None:

@@ -166,8 +166,7 @@ def _with_half(plain: str, number: Number, unit: Unit) -> Measure:
             value, end = value + part[0], part[1]
         elif digit is not None and number.form == "chinese":
             value, end = value + Decimal(chinese_value(digit["digit"]) or 0) / 10, digit.end()
-    number = dataclasses.replace(number, value=value)
-    return Measure(number=number, unit=unit, start=number.start, end=end)
+    return Measure(number=dataclasses.replace(number, value=value), unit=unit, start=number.start, end=end)
 
 
 def _share(plain: str, number: Number) -> Measure | None:
@@ -327,9 +326,7 @@ def _said_once(text: str, plain: str, found: Iterable[Quantity]) -> list[Quantit
         first = once[-1] if once else each
         again = _AGAIN.fullmatch(plain, first.phrase_end, each.start)
         end = each.end + 1 if again and again["open"] else each.end
-        closed = (
-            _CLOSED.match(plain, max(end, each.phrase_end)) if plain[each.end : end] in ("", ")", "\uff09") else None
-        )
+        closed = plain[each.end : end] in ("", ")", "\uff09") and _CLOSED.match(plain, max(end, each.phrase_end))
         bounds = {first.comparator, each.comparator} - {None}
         units = {_DIGITS.sub("", figure.text) for figure in (first, each)}
         same = math.isclose(first.value, each.value, rel_tol=_ROUNDED) and {first.kind, each.kind} == {"power"}
@@ -381,12 +378,10 @@ def _bounded(text: str, plain: str, measure: Measure, *, after: int, until: int)
     article = plain[number.start : number.end].lower() in ("a", "an")
     if article and not (unit is not None and (bounds.comparator or unit.kind == "rate")):
         return None
-    end = measure.end
     bounded_rate = bounds.comparator and kind == "rate"
     own = _OWN_NOUN.search(plain, max(0, bounds.start - 12), bounds.start) if bounded_rate else None
-    foreign = _FOREIGN_UNIT.match(plain, end, until) if kind == "other" and unit is None else None
-    if foreign is not None:
-        end = foreign.end()
+    foreign = _FOREIGN_UNIT.match(plain, measure.end, until) if kind == "other" and unit is None else None
+    end = measure.end if foreign is None else foreign.end()
     return Quantity(
         value=measure.value if kind != "other" else 0.0, kind=kind, text=text[measure.start : end],
         start=measure.start, end=end,
