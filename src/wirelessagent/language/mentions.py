@@ -17,8 +17,8 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.number_words import cardinals, listed, tens_and_ones, whole
-from wirelessagent.language.numerals import TIGHT_LIST, chinese_value, factors, numbers
-from wirelessagent.language.text import AND, CJK, NUMBERED_USERS, Phrases, clause_start, is_chinese, normalise, overlaps
+from wirelessagent.language.numerals import NUMBERED, TIGHT_LIST, chinese_value, factors, numbers
+from wirelessagent.language.text import AND, WORD, Phrases, clause_start, is_chinese, normalise, overlaps
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import language_of
 from wirelessagent.language.word_tables import any_word, deferred, either, table
@@ -26,7 +26,7 @@ from wirelessagent.language.word_tables import any_word, deferred, either, table
 Role: TypeAlias = Literal["named", "everybody", "others", "pronoun"]
 
 ORDINALS = {word: str(place) for word, place in listed("ordinals").items()}
-_NUMBER_WORDS = {word: str(value) for word, value in cardinals(1, 20).items() if word != "once"} | {"un": "1"}
+_NUMBER_WORDS = {word: value for word, value in cardinals(1, 20).items() if word != "once"} | {"un": 1}
 
 NOUN, _EACH = any_word("figures", "users", "nouns", "things"), any_word("figures", "users", "each")
 _ORDINAL = f"(?:{'|'.join(sorted(ORDINALS, key=len, reverse=True))})"
@@ -34,11 +34,8 @@ WORD_NUMBER = f"(?:{tens_and_ones()}|{'|'.join(sorted(_NUMBER_WORDS, key=len, re
 JOINT_WORDS, ARTICLES = (either("figures", "users", name) for name in ("joins", "articles"))
 _AND = rf"(?:\s*(?:,|&|\+|/)\s*(?:(?:{AND}|or)\s+)?|\s+(?:{JOINT_WORDS})\s+(?:(?:{ARTICLES})\s+)?)"
 _TO = rf"(?:\s*(?:-|–|~|\.{{2,3}}|…)\s*|\s+{any_word('figures', 'users', 'to', 'as_far_as')}\s+)"
-_OF_ITS_OWN = (  # "6 for user 2, 3 for user 3": no list of users, as "1 and 5 to have …", "1 to 4 for now" are
-    r"(?!\s+(?:for(?!\s+(?:now|today|tonight|good|once|the\s+moment|this|next)\b)|"
-    r"to(?!\s+(?:have|get|receive|be|reach|see|go|run|enjoy|count|share|stay|[0-9]))|para(?!\s+(?:ahora|hoy|siempre))|"
-    r"pour(?!\s+(?:l'instant|le\s+moment|aujourd))|für(?!\s+(?:heute|jetzt|immer|den\s+Moment)))\s)"
-)
+# "6 for user 2, 3 for user 3": no list of users, as "1 and 5 to have …", "1 to 4 for now" are
+_OF_ITS_OWN = rf"(?!\s+{either('figures', 'users', 'of_its_own')}\s)"
 _NUMBER_NOUN = any_word("figures", "users", "number")
 _NO = rf"(?:(?:no|nr|num|núm)\.?|n[°º]|#|{_NUMBER_NOUN})"
 _DIGITS = r"[0-9]{1,4}(?!(?!\.\.)[0-9.,]*[0-9%]|[A-Za-z])"
@@ -72,12 +69,11 @@ ZH_NOUN = r"(?:用户|終端|终端|用戶|UE|ue|客户|客戶|订户|设备|手
 _ANY_NOUN = rf"(?:{NOUN}|{ZH_NOUN})"
 
 
-def _zh_list(number: str) -> str:
-    joint = r"\s*号?\s*(?:、|,|\uff0c|和|与|跟|及|以及|到|至|-|~)\s*|\s+(?=[0-9]{1,2}(?:\s+[0-9]{1,2})*\s*号)"
-    return rf"{number}(?:(?:{joint}){number}|\s*号\s*{number}(?=\s*号))*"
-
-
-_ZH_LIST = rf"(?:{_zh_list('[0-9]{1,2}(?![0-9])')}|[0-9]{{1,4}}|{_zh_list('[一二三四五六七八九十]{1,3}')})"
+_ZH_JOINT = r"\s*号?\s*(?:、|,|\uff0c|和|与|跟|及|以及|到|至|-|~)\s*|\s+(?=[0-9]{1,2}(?:\s+[0-9]{1,2})*\s*号)"
+_ZH_LIST = "[0-9]{3,4}|" + "|".join(
+    rf"{number}(?:(?:{_ZH_JOINT}){number}|\s*号\s*{number}(?=\s*号))*"
+    for number in ("[0-9]{1,2}(?![0-9])", "[一二三四五六七八九十]{1,3}")
+)
 _ZH = deferred(
     rf"(?<!其他)(?<!其它)(?<!其余)(?:{ZH_NOUN}\s*(?P<after>{_ZH_LIST})(?!\s*[个名位台户兆瓦点起样直定边次共切致下])号?)"
     rf"|(?<![权重乘取为=.0-9月])(?!(?<=重[设是给算])[0-9]{{1,4}}\s*[,\uff0c]|(?<=[第之]){_ZH_NUMBER}\s*[,\uff0c、])(?P<hao>{_ZH_LIST})\s*[号號](?!线|楼|院|机房|站|小区|基站|人|桌|门|馆|店|厅|早|晚)\s*{ZH_NOUN}?"
@@ -93,8 +89,8 @@ _EVERYBODY = Phrases(
 )
 _PRONOUN = Phrases(either("figures", "users", "pronouns"))
 _FEW = rf"(?:[0-9]{{1,2}}|{WORD_NUMBER}|beiden)"
-_ENDS = {name: f"(?:{either('figures', 'users', name)})" for name in ("first", "last")}
 _ON = either("figures", "users", "from_on")
+_ENDS = {name: f"(?:{either('figures', 'users', name)})" for name in ("first", "last")}
 _UNIT = r"%|(?:[kmg]|mega|kilo|giga)?(?:bit|bps|b/s)|[km]\b|m?w\b|(?:milli)?watt|db|megs?\b|兆|瓦"
 PLACED = {
     "noun": NOUN, "ordinal": _ORDINAL,
@@ -109,10 +105,7 @@ BY_PLACE = Phrases(
                 for name in ("odd", "even", "nth", "from_here", "past", "up_to", "before")
             ),
             *(
-                rf"(?:{end}\s+(?P<{name}>{_FEW})|\b(?P<{name}_>{_FEW})\s+{end})\s+{NOUN}(?![A-Za-z])"
-                for name, end in _ENDS.items()
-            ),
-            *(
+                rf"(?:{end}\s+(?P<{name}>{_FEW})|\b(?P<{name}_>{_FEW})\s+{end})\s+{NOUN}(?![A-Za-z])|"
                 rf"{end}\s*(?P<{name}__>[0-9]{{1,2}}|[一二两三四五六七八九十])\s*[个位名]\s*{ZH_NOUN}"
                 for name, end in _ENDS.items()
             ),
@@ -132,8 +125,7 @@ _EACH_OF = deferred(rf"(?i)(?:{either('figures', 'users', 'each_of')})\s*{_ANY_N
 _LONGEST_RANGE, _NEAR, _MOST_USERS, _FAR_OFF = 100, 25, 100, 5
 """How many users a range may have, how near what leaves out stands, and from where on a number behind users that is so
 many times theirs is none."""
-_RANGE = deferred(rf"(?i){_TO}(?:l')?|\s*[到至]\s*")
-_UP_TO = deferred(rf"(?i)号?{_TO}|\s*号?\s*[到至]\s*")
+_UP_TO = deferred(rf"(?i)\s*号?(?:{_TO}(?:l')?|\s*[到至]\s*)")
 _ITEM = deferred(rf"(?i)[0-9]+|\b{_ORDINAL}\b|{WORD_NUMBER}\b|[一二三四五六七八九十]+")
 _AND_BETWEEN = deferred(r"(?i)[a-z和与跟及&/、]")
 _LAST_COMMA = deferred(rf"(?i)\s*[,\uff0c]\s*(?:(?:{AND}|e)\s+)?(?=[^,\uff0c]*$)")
@@ -179,7 +171,7 @@ def _by_place(plain: str, count: int) -> Iterator[Mention]:
     """
     for match in BY_PLACE.finditer(plain):
         group, words = next((name, words) for name, words in match.groupdict().items() if words)
-        said = [int(number) for part in _ITEM.finditer(words.lower()) if (number := _number(part.group()))]
+        said = [number for part in _ITEM.finditer(words) if (number := _number(part.group())) is not None]
         number = max(said[-1:], default=2)
         first, last, step = {
             "odd": (1, count, 2), "even": (2, count, 2), "nth": (max(number, 2), count, max(number, 2)),
@@ -195,7 +187,13 @@ def _by_place(plain: str, count: int) -> Iterator[Mention]:
 @functools.lru_cache(maxsize=64)
 def _spoken_of(plain: str) -> tuple[Mention, ...]:
     """Everybody spoken of but by the channel's own names, as the patterns find them; they may overlap."""
-    return (*_named(plain), *_collective(plain))
+    roles: Mapping[Role, Phrases] = {"others": _OTHERS, "everybody": _EVERYBODY, "pronoun": _PRONOUN}
+    collective = (
+        Mention(role=role, users=(), start=match.start(), end=match.end())
+        for role, pattern in roles.items()
+        for match in pattern.finditer(plain)
+    )
+    return (*_named(plain), *collective)
 
 
 def _named(plain: str) -> Iterator[Mention]:
@@ -213,25 +211,21 @@ def _without_quantity(plain: str, match: re.Match[str], group: str) -> int:
     """Where the list ends when its last number is no user: "users 1 and 2, 10 W", "user 5 to 450"."""
     if group in ("ordinal", "short", "symbol", "rate_of", "nth"):
         return match.end()
-    parts = list(_ITEM.finditer(match.group(group)))
     offset = match.start(group)
-    for one, other in itertools.pairwise(parts):  # "4, 6 and 7 to 1, 2 and 5 Mbit/s"
-        reaches = _UP_TO.fullmatch(plain, offset + one.end(), offset + other.start()) is not None
-        if reaches and int(_number(other.group()) or 0) < int(_number(one.group()) or 0):
-            return offset + one.end()
-    far = [int(_number(part.group()) or 0) for part in parts[-2:]]
-    if len(far) > 1 and far[1] >= _MOST_USERS and far[1] > _FAR_OFF * far[0]:  # "users 1 and 2, 500"
-        return offset + parts[-2].end()
-    measured = bool(parts) and unit_at(plain, offset + parts[-1].end()) is not None
-    if measured and len(parts) == 2 and is_of_each(plain, match.start(group)):
-        return offset  # "each user 1 to 5 Mbit/s"
-    if measured:
-        several = len(parts) > 1 and plain[offset + parts[-2].end() : offset + parts[-1].start()] != ","  # "1,5 Mbit/s"
-        return offset + parts[-2].end() if several else offset
-    if len(parts) > 1 and _UP_TO.fullmatch(plain, offset + parts[-2].end(), offset + parts[-1].start()):
-        first, last = (int(_number(part.group()) or 0) for part in parts[-2:])
-        return match.end() if last - first < _LONGEST_RANGE else offset + parts[-2].end()
-    return match.end()
+    parts = [
+        (_number(part[0]) or 0, offset + part.start(), offset + part.end()) for part in _ITEM.finditer(match[group])
+    ]
+    last = parts[-2][2] if len(parts) > 1 else offset  # where the list ends without its last number
+    for (one, _, end), (other, start, _) in itertools.pairwise(parts):  # "4, 6 and 7 to 1, 2 and 5 Mbit/s"
+        if other < one and _UP_TO.fullmatch(plain, end, start):
+            return end
+    if len(parts) > 1 and parts[-1][0] >= max(_MOST_USERS, _FAR_OFF * parts[-2][0]):  # "users 1 and 2, 500"
+        return last
+    if parts and unit_at(plain, parts[-1][2]) is not None:
+        of_each = len(parts) == 2 and is_of_each(plain, offset)  # "each user 1 to 5 Mbit/s"
+        return offset if of_each or plain[last : parts[-1][1]] == "," else last  # "1,5 Mbit/s"
+    is_range = len(parts) > 1 and _UP_TO.fullmatch(plain, last, parts[-1][1])
+    return last if is_range and parts[-1][0] - parts[-2][0] >= _LONGEST_RANGE else match.end()
 
 
 def is_of_each(plain: str, start: int) -> bool:
@@ -241,40 +235,27 @@ def is_of_each(plain: str, start: int) -> bool:
 
 def _listed(text: str) -> tuple[str, ...]:
     """The users of a list such as "1, 2 and 5" or "1 to 4"."""
-    users: list[str] = []
-    previous, previous_end = "", 0
+    users: list[int] = []
+    end = 0
     for part in _ITEM.finditer(text):
         user = _number(part.group())
-        if not user:
+        if user is None:
             continue
-        spans = previous and _UP_TO.fullmatch(text, previous_end, part.start())
-        if spans and int(previous) < int(user) < int(previous) + _LONGEST_RANGE:
-            users.extend(str(number) for number in range(int(previous) + 1, int(user)))
+        spans = users and _UP_TO.fullmatch(text, end, part.start())
+        if spans and users[-1] < user < users[-1] + _LONGEST_RANGE:
+            users.extend(range(users[-1] + 1, user))
         users.append(user)
-        previous, previous_end = user, part.end()
-    return tuple(dict.fromkeys(users))
+        end = part.end()
+    return tuple(dict.fromkeys(map(str, users)))
 
 
-def _number(word: str) -> str:
+def _number(word: str) -> int | None:
     word = word.lower()
     if word.isdigit():
-        return str(int(word))
+        return int(word)
     known = ORDINALS.get(word) or _NUMBER_WORDS.get(word)
-    value = None if known else chinese_value(word) if is_chinese(word[0]) else whole(word)
-    return known or ("" if value is None else str(int(value)))
-
-
-def _collective(plain: str) -> Iterator[Mention]:
-    roles: Mapping[Role, Phrases] = {"others": _OTHERS, "everybody": _EVERYBODY, "pronoun": _PRONOUN}
-    for role, pattern in roles.items():
-        for match in pattern.finditer(plain):
-            yield Mention(role=role, users=(), start=match.start(), end=match.end())
-
-
-def _lists(plain: str, last: Mention, mention: Mention) -> bool:
-    """Whether two neighbours are items of one list: an "and" joins them, or a comma where the list goes on."""
-    between, behind = plain[last.end : mention.start], plain[mention.end :]
-    return bool(_AND_BETWEEN.search(between) or _GOES_ON.match(behind))
+    value = known or (chinese_value(word) if is_chinese(word[0]) else whole(word))
+    return None if value is None else int(value)
 
 
 def merged(plain: str, found: Sequence[Mention]) -> list[Mention]:
@@ -285,9 +266,11 @@ def merged(plain: str, found: Sequence[Mention]) -> list[Mention]:
         between: list[str] | None = None
         again = {*mention.users} <= {*last.users}  # "to 1 and 6, 1 at least …"
         if merged and last.role == mention.role == "named" and not again:
-            if _RANGE.fullmatch(plain, last.end, mention.start):
+            if _UP_TO.fullmatch(plain, last.end, mention.start):
                 between = [*_listed(f"{last.users[-1]} to {mention.users[0]}")]
-            elif _lists(plain, last, mention) and JOINT.fullmatch(plain, last.end, mention.start):
+            elif JOINT.fullmatch(plain, last.end, mention.start) and (
+                _AND_BETWEEN.search(plain, last.end, mention.start) or _GOES_ON.match(plain, mention.end)
+            ):  # a comma joins only where the list goes on
                 between = []
         if between is None:
             merged.append(mention)
@@ -324,7 +307,7 @@ _BREAK = r"\s*+(?:[,;\uff0c；、啊哎哦唉]|[-–—…]++|\.{2,3}+)\s*+"
 _CORRECTS, _MEANS = (either("figures", "one", name) for name in ("corrects", "means"))
 _JOINT = rf"(?:{JOINT_WORDS}|\b{any_word('figures', 'users', 'to')}\b|[~/&+、到至和与]|(?<=[0-9])[-–](?=[0-9]))"
 _FILLED = either("figures", "one", "fillers")
-_TOKEN = rf"(?:[{CJK}]|(?:(?![{CJK}])[^\W\d_])++(?:['’](?:(?![{CJK}])[^\W\d_])++)?)"
+_TOKEN = rf"(?>{WORD})"
 _PAUSE = rf"(?:(?:{_FILLED})\s*+|{_BREAK})"
 _RETURN = deferred(  # what stands between a figure and the one that takes its place: words of either, what takes back
     rf"(?i)(?P<tail>(?:\s*+{_TOKEN}){{0,4}}?)\s*+(?P<back>(?P<pause>{_PAUSE}*+)(?P<said>{_CORRECTS}|(?P<means>{_MEANS}))"
@@ -337,7 +320,7 @@ _SURELY_A_RATE, _DENIES = 20, ("no", "non", "不", "不是")
 what stands before, when they stand alone."""
 _GOES_ELSEWHERE = deferred(rf"(?i)\s*(?:给|对|(?!(?:{AND})\b|{_BOUND_BEHIND})[A-Za-zÀ-ÿ])")
 _ANOTHER_USER = deferred(rf"(?i){_ANY_NOUN}")
-_OF_USERS = deferred(rf"(?i)(?:{_FOR}|{NUMBERED_USERS.removesuffix('$')})\s*$")
+_OF_USERS = deferred(rf"{NUMBERED.pattern}|{_FOR}\s*$")
 _LIST_AHEAD = deferred(rf"(?i){_NUMBER}\s*号?\s*(?:,\s*)?(?:{_JOINT}|,)\s*(?:{_FOR}\s*)?(?:{_ANY_NOUN}\s*)?$")
 _LIST_BEHIND = deferred(rf"(?i)\s*号?\s*{_JOINT}\s*(?:{_FOR}\s*)?(?:{_ANY_NOUN}\s*)?{_NUMBER}")
 

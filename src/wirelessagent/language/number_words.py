@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 
-from wirelessagent.language.word_tables import deferred, table
+from wirelessagent.language.word_tables import table
 
 _PLAIN = str.maketrans("áàâäéèêëíîïóôöúùûüñç", "aaaaeeeeiiiooouuuunc")
 _GERMAN_PLAIN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
@@ -45,27 +45,30 @@ class _Grammar:
         )
         ordinals = set(map(plain, words["ordinals"])) - set(map(plain, words.get("alone", ())))
         self.alone = self.parts.keys() - ordinals  # "half", but "a third"
-
-    def knows(self, word: str) -> bool:
-        """Whether a number may begin with this word."""
-        beginning = (self.values, self.scales, self.alone, self.vague, self.articles, self.dozens, self.points)
-        return any(word in words for words in beginning)
+        self.beginnings = self.alone.union(
+            self.values, self.scales, self.vague, self.articles, self.dozens, self.points
+        )
+        self.linking = self.parts.keys() | self.scales.keys() | self.dozens
 
 
 LANGUAGES = ("en", "es", "fr", "de")
 _GRAMMARS = {language: _Grammar(language) for language in LANGUAGES}
-_GERMAN = table("figures", "de")["numbers"]
-_GERMAN_ONES = {
-    word: value for word, value in _GRAMMARS["de"].values.items() if value < 20 and word not in _GERMAN["articles"][1:]
-}
-_GERMAN_TENS = {word: value for word, value in _GRAMMARS["de"].values.items() if value >= 20}
 # What stresses an article, which is then a number: "a full megabit", "un seul".
 _STRESS = frozenset(word for language in LANGUAGES for word in table("figures", language)["numbers"]["stress"])
 
-_GERMAN_ROOTS = "|".join(
-    sorted(_GERMAN_ONES | _GERMAN_TENS | {"hundert": 0, "tausend": 0, "und": 0, "einhalb": 0}, key=len, reverse=True)
-)
-_GERMAN_COMPOUND = deferred(rf"(?:{_GERMAN_ROOTS})+|anderthalb(?:e|es)?")
+_GERMAN_TENS = {word: value for word, value in _GRAMMARS["de"].values.items() if value >= 20}
+_GERMAN_ONES = {
+    word: value
+    for word, value in _GRAMMARS["de"].values.items()
+    if value < 20 and word not in table("figures", "de")["numbers"]["articles"][1:]
+}
+_GERMAN_BELOW_100 = {
+    **_GERMAN_ONES, **_GERMAN_TENS, **dict.fromkeys(("anderthalb", "anderthalbe", "anderthalbes"), Decimal("1.5")),
+    **{
+        f"{one}und{ten}": ones + tens
+        for one, ones in _GERMAN_ONES.items() for ten, tens in _GERMAN_TENS.items() if ones < 10
+    },
+}  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,12 +138,9 @@ def languages_of(word: str) -> tuple[str, ...]:
     >>> languages_of("six"), languages_of("vatios")
     (('en', 'fr'), ())
     """
-    found: list[str] = []
-    for language, grammar in _GRAMMARS.items():
-        plain = plain_word(word, language)
-        if grammar.knows(plain) or (language == "de" and german_value(plain) is not None):
-            found.append(language)
-    return tuple(found)
+    spelt = {language: plain_word(word, language) for language in LANGUAGES}
+    known = {language for language, plain in spelt.items() if plain in _GRAMMARS[language].beginnings}
+    return tuple(each for each in spelt if each in known or (each == "de" and german_value(spelt[each]) is not None))
 
 
 def spoken(words: Sequence[str], language: str) -> Spoken | None:
@@ -159,10 +159,6 @@ def german_value(word: str) -> Decimal | None:
     >>> german_value("siebenundzwanzig"), german_value("hunderttausend"), german_value("anderthalb")
     (Decimal('27'), Decimal('100000'), Decimal('1.5'))
     """
-    if _GERMAN_COMPOUND.fullmatch(word) is None:
-        return None
-    if word.startswith("anderthalb"):
-        return Decimal("1.5")
     if word.endswith("einhalb"):
         whole = german_value(word.removesuffix("einhalb"))
         return None if whole is None else whole + _HALF
@@ -173,10 +169,7 @@ def german_value(word: str) -> Decimal | None:
             if times is None or rest is None or times >= 1000 or rest >= scale:
                 return None
             return times * scale + rest
-    ones, joined, tens = word.partition("und")
-    if joined and ones in _GERMAN_ONES and tens in _GERMAN_TENS and _GERMAN_ONES[ones] < 10:
-        return Decimal(_GERMAN_ONES[ones] + _GERMAN_TENS[tens])
-    value = _GERMAN_ONES.get(word, _GERMAN_TENS.get(word))
+    value = _GERMAN_BELOW_100.get(word)
     return None if value is None else Decimal(value)
 
 
@@ -185,7 +178,6 @@ class _Reader:
 
     def __init__(self, words: Sequence[str], language: str) -> None:
         self._words, self._language, self._grammar = words, language, _GRAMMARS[language]
-        self._linking = (self._grammar.parts, self._grammar.scales, self._grammar.dozens)
         self._place = 0
 
     def read(self) -> Spoken | None:
@@ -200,15 +192,20 @@ class _Reader:
         if value is None:
             return None
         if self._place > 1 or not is_article:
-            linked = any(self._words[self._place - 1] in words for words in self._linking)
+            linked = self._words[self._place - 1] in self._grammar.linking
         value, linked = self._scaled(value, linked=linked)
         return self._result(value, linked=linked, is_article=is_article and self._place == 1)
 
     def _result(self, value: Decimal | None, *, linked: bool, is_article: bool = False) -> Spoken:
-        end = self._place
-        while linked and end < len(self._words) and self._words[end] in self._grammar.links:
-            end += 1
+        end = self._place + (self._links() if linked else 0)
         return Spoken(value=value, words=self._place, linked=end, is_article=is_article)
+
+    def _links(self) -> int:
+        """How many words stand here that link a part with its unit: "of a"."""
+        ahead = 0
+        while self._word(ahead) in self._grammar.links:
+            ahead += 1
+        return ahead
 
     def _word(self, ahead: int = 0) -> str:
         place = self._place + ahead
@@ -235,20 +232,21 @@ class _Reader:
         start = self._place
         while word := self._word():
             value = self._value(word)
-            if word in self._grammar.articles and group is None and self._place == start and value is None:
-                value = Decimal(1)
+            scale, times = self._grammar.scales.get(word, 0), _ONE if group is None else group
+            if value is None and word in self._grammar.articles and self._place == start:
+                value = _ONE
             if value is not None and self._fits(value, group, room, outer):
                 group, room = (group or Decimal(0)) + value, self._room(value)
             elif group is not None and self._language == "fr" and word in ("vingt", "vingts") and group % 10 == 4:
                 group, room = group + 76, Decimal(20)
-            elif word in self._grammar.dozens and not total and (group is None or group < 100):
+            elif word in self._grammar.dozens and not total and times < 100:
                 self._place += 1
-                return (_ONE if group is None else group) * 12
-            elif self._grammar.scales.get(word) == 100 and (group is None or 0 < group < 100):
-                group, room = (_ONE if group is None else group) * 100, Decimal(100)
-            elif 100 < self._grammar.scales.get(word, 0) < outer and group != 0:
-                outer = Decimal(self._grammar.scales[word])
-                total, group = total + (_ONE if group is None else group) * outer, None
+                return times * 12
+            elif scale == 100 and 0 < times < 100:
+                group, room = times * 100, Decimal(100)
+            elif 100 < scale < outer and times != 0:
+                outer = Decimal(scale)
+                total, group = total + times * outer, None
             elif word in self._grammar.joins and self._joins(group, room, outer if total else None):
                 pass
             else:
@@ -308,23 +306,18 @@ class _Reader:
             return share if value is None else value * share
         if value is None or self._word() not in self._grammar.joins:
             return value
-        start = self._place
-        self._place += 1
-        times: Decimal | None = _ONE
-        if not self._is_part(0):
-            times = _ONE if self._word() in self._grammar.articles else self._value(self._word())
-            self._place += 1
-        if times is None or not self._is_part(0):
-            self._place = start
+        count = self._word(1)
+        is_part = count in self._grammar.parts
+        times = _ONE if is_part or count in self._grammar.articles else self._value(count)
+        ahead = 1 if is_part else 2
+        if times is None or not self._is_part(ahead):
             return value
-        self._place += 1
-        return value + times * self._grammar.parts[self._words[self._place - 1]]
+        self._place += ahead + 1
+        return value + times * self._grammar.parts[self._word(-1)]
 
     def _scaled(self, value: Decimal, *, linked: bool) -> tuple[Decimal, bool]:
         """The value times a scale behind it: "half a million", "two and a half thousand", "half a dozen"."""
-        ahead = 0
-        while linked and self._word(ahead) in self._grammar.links:
-            ahead += 1
+        ahead = self._links() if linked else 0
         word = self._word(ahead)
         scale = 12 if word in self._grammar.dozens else self._grammar.scales.get(word)
         if scale is None or (value == int(value) and not linked):

@@ -7,13 +7,14 @@ so that nobody acts on half of one ("a few hundred" is not 100).
 from __future__ import annotations
 
 import functools
+import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 
 from wirelessagent.language.number_words import Spoken, cardinals, languages_of, listed, spoken
-from wirelessagent.language.text import AND, NUMBERED_USERS, Phrases
+from wirelessagent.language.text import AND, USER_NOUN, Phrases
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import language_of
 from wirelessagent.language.word_tables import any_word, deferred, table, words_of
@@ -26,8 +27,7 @@ _PARTS = {
 }  # fmt: skip
 
 _CHINESE_DIGITS = {c: d for d, c in enumerate("零一二三四五六七八九")} | {"〇": 0, "两": 2}
-_CHINESE_SCALES = {"十": 10, "百": 100, "千": 1000}
-_CHINESE_BIG = {"万": 10**4, "亿": 10**8}
+_CHINESE_SCALES = {"十": 10, "百": 100, "千": 1000, "万": 10**4, "亿": 10**8}
 
 _DIGITS = (
     r"(?:(?:[1-9][0-9]{0,2}(?:,[0-9]{3})+|[1-9][0-9]{0,2}(?:'[0-9]{3})+|[1-9][0-9]{0,2}(?: [0-9]{3})+(?![0-9]))"
@@ -36,11 +36,8 @@ _DIGITS = (
 )
 TIGHT_LIST = r"[1-9][0-9]?(?:,[1-9][0-9]?)+(?![0-9.,]*[0-9%]|[A-Za-z])"
 """Users without a space between: "6,7,8"; two of them may be a decimal."""
-_TIGHT_LIST, _ITEM, _GOES_ON = (
-    deferred(TIGHT_LIST),
-    deferred("[0-9]+"),
-    deferred(r"\s*(?:-|–|~|to\b|or\b|[到至或])\s*[0-9]"),
-)
+_TIGHT_LIST, _ITEM = deferred(TIGHT_LIST), deferred("[0-9]+")
+_GOES_ON = deferred(r"\s*(?:-|–|~|to\b|or\b|[到至或])\s*[0-9]")
 _LETTERS = "A-Za-zÀ-ÖØ-öø-ÿ"
 _NUMBER = deferred(
     rf"(?P<minus>(?<![A-Za-z0-9_)])-(?=[0-9.])|(?i:\b(?:minus|negative)\s+)|负\s*)?"
@@ -61,8 +58,12 @@ _SCALED, _LISTED_AHEAD = deferred(r"[kKM](?![A-Za-z])"), deferred(rf"(?i)[0-9]\s
 _VAGUELY = deferred(r"[来多余几]")
 _THOUSANDFOLD = deferred(r"比特|字节|瓦(?!时)")
 _AS_FEW = deferred(rf"(?i)\b{any_word('figures', 'numbers', 'degrees')}\s+$")
+NUMBERED = deferred(
+    rf"(?i)\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|{any_word('figures', 'numbers', 'joins', 'ors')}|&|/)\s*)*$"
+)
+"""What stands before a number that names a user: "user ", "users 1 and "."""
 _EACH = "".join(f"(?<!{word} )" for word in words_of("figures", "users", "of_each"))
-_NAMED = deferred(rf"(?i){_EACH}{NUMBERED_USERS}")
+_NAMED = deferred(f"(?i){_EACH}{NUMBERED.pattern.removeprefix('(?i)')}")
 _PLURAL = deferred(rf"(?i)\b{any_word('figures', 'users', 'plurals')}\s*$")
 _BELOW_ZERO = deferred(r"(?i)(?<!al )(?<!lo )(?<!au )(?<!ou )\b(?:menos|moins)\s+$")
 
@@ -132,6 +133,7 @@ def _numbers(text: str, language: str) -> Iterator[Number]:
         else:
             number = _in_chinese(text, match)
         if number is not None:
+            number = _qualified(text, match, number)
             position = max(number.end, match.start() + 1)
             yield number
 
@@ -163,72 +165,62 @@ def and_part(text: str, position: int) -> tuple[Decimal, int] | None:
     return (_PARTS[(match["part"] or match["sign"]).lower()], match.end()) if match is not None else None
 
 
-def _signed(match: re.Match[str], text: str, number: Number) -> Number:
-    """The number below zero where a minus stands before it; "menos" only where it cannot mean "less"."""
-    minus = match["minus"]
+def _is_name(text: str, start: int) -> bool:
+    """Whether a number that begins here names a user."""
+    return _NAMED.search(text, max(0, start - 40), start) is not None
+
+
+def _qualified(text: str, match: re.Match[str], number: Number) -> Number:
+    """The number without a value where it is vague, 三十来瓦, and below zero where a minus stands before it; words
+    need a unit for that, and "menos" one of which it cannot mean "less".
+    """
+    unit = unit_at(text, number.end)
+    if _VAGUELY.match(text, number.end) and unit_at(text, number.end + 1) is not None:
+        return replace(number, value=None, end=number.end + 1)
+    minus = match["minus"] and (unit is not None or not match["word"])
     if not minus and _BELOW_ZERO.search(text, max(0, number.start - 12), number.start):
-        unit = unit_at(text, number.end)
         minus = unit is not None and unit.level_dbm is not None
     if not minus or number.value is None:
         return number
-    return Number(value=-number.value, start=match.start(), end=number.end, form=number.form)
+    return replace(number, value=-number.value, start=match.start())
 
 
 def _in_digits(text: str, match: re.Match[str], language: str) -> Number:
-    start, end = match.start("digits" if match["digits"] else "fraction"), match.end()
-    digits = match["digits"] or match["fraction"]
-    if " " in digits and (_is_name(text, start) or _is_user_and_figure(text, match)):
-        digits = digits.split(" ")[0]  # "UE 2 750 kbit/s": a name, then a figure
+    group = "digits" if match["digits"] else "fraction"
+    digits, start, end = match[group], match.start(group), match.end()
+    is_name = _is_name(text, start)
+    scaled = _SCALED.match(text, match.end(group)) is not None
+    if " " in digits and (is_name or (scaled and _LISTED_AHEAD.search(text, 0, start))):
+        digits = digits.split(" ")[0]  # "UE 2 750 kbit/s", "1 and 2 300k": a name, then a figure
         return Number(value=Decimal(digits), start=start, end=start + len(digits), form="digits")
     value = _PARTS.get(digits) or _digits_value(digits, language)
     if value is None:
         return Number(value=None, start=start, end=end, form="digits")
     if match["exponent"]:
         value = value.scaleb(int(match["exponent"]))
-    scale = (match["scale"] or "").lower().removesuffix("d'").removesuffix("de").strip()
-    if scale:
-        value *= _scale_value(scale, language)
-    over = _OVER.match(text, end) if not scale else None
-    if over is not None and unit_at(text, over.end()) is not None:
+    if match["scale"]:
+        value *= _scale_value(match["scale"].lower().removesuffix("d'").removesuffix("de").strip(), language)
+    over, part = _OVER.match(text, end), and_part(text, end)
+    if over is not None and not match["scale"] and unit_at(text, over.end()) is not None:
         share = value / int(over["below"])
         value, end = share if share * int(over["below"]) == value else None, over.end()
-    part = and_part(text, end) if not _is_name(text, start) else None
-    if value is not None and part is not None and unit_at(text, part[1]) is not None:
+    elif part is not None and not is_name and unit_at(text, part[1]) is not None:
         value, end = value + part[0], part[1]
-    if _VAGUELY.match(text, end) and unit_at(text, end + 1) is not None:
-        value, end = None, end + 1
-    return _signed(match, text, Number(value=value, start=start, end=end, form="digits"))
-
-
-def _is_user_and_figure(text: str, match: re.Match[str]) -> bool:
-    """Whether digits with a space are the last of some users and a figure: "1 and 2 300k"."""
-    scaled = _SCALED.match(text, match.end("digits")) is not None
-    return scaled and _LISTED_AHEAD.search(text, 0, match.start("digits")) is not None
-
-
-def _is_name(text: str, start: int) -> bool:
-    """Whether a number that begins here names a user."""
-    return _NAMED.search(text, max(0, start - 40), start) is not None
+    return Number(value=value, start=start, end=end, form="digits")
 
 
 def _scale_value(scale: str, language: str) -> int:
-    if scale.isascii() or scale == "millón":
-        return 1 if scale == "mil" and language != "es" else _SCALES[scale]
-    value = 1
-    for letter in scale:
-        value *= _CHINESE_SCALES.get(letter) or _CHINESE_BIG[letter]
-    return value
+    if scale == "mil" and language != "es":
+        return 1
+    return _SCALES.get(scale) or math.prod(_CHINESE_SCALES[letter] for letter in scale)
 
 
 def _digits_value(digits: str, language: str) -> Decimal | None:
     """The value of digits; what a single mark before three of them means depends on the language."""
-    groups = language in ("es", "de")
-    if re.match(r"[1-9][0-9]{0,2}(?:'[0-9]{3})+(?![0-9])", digits):
-        digits = digits.replace("'", "")
-    elif re.match(rf"[1-9][0-9]{{0,2}}(?:,[0-9]{{3}}){{{2 if language in ('de', 'fr') else 1},}}(?![0-9])", digits):
-        digits = digits.replace(",", "")
-    elif re.match(rf"[1-9][0-9]{{0,2}}(?:\.[0-9]{{3}}){{{1 if groups else 2},}}(?![0-9])", digits):
-        digits = digits.replace(".", "")
+    least = {"'": 1, ",": 2 if language in ("de", "fr") else 1, ".": 1 if language in ("es", "de") else 2}
+    for mark, groups in least.items():
+        if re.match(rf"[1-9][0-9]{{0,2}}(?:[{mark}][0-9]{{3}}){{{groups},}}(?![0-9])", digits):
+            digits = digits.replace(mark, "")
     if len(re.findall(r"[.,]", digits)) > 1:
         return None  # "1,23,456": what the marks mean is anybody's guess
     return Decimal(digits.replace(" ", "").replace(",", "."))
@@ -248,9 +240,10 @@ def _in_words(text: str, match: re.Match[str], own: str) -> tuple[Number | None,
         if number is None:
             continue
         measured = unit_at(text, number.end) is not None
-        if measured and not (said.is_article and language == "en" != own):
-            return _signed(match, text, number), language
-        if language == own and _stands_alone(text, number, said):
+        alone = said.value is not None or number.form == "words"
+        if said.is_article:
+            alone = text[number.start : number.end].lower() == "eines"
+        if (language == own and alone) or (measured and not (said.is_article and language == "en" != own)):
             return number, language
     return None, own
 
@@ -271,22 +264,12 @@ def _placed(text: str, match: re.Match[str], said: Spoken, places: list[re.Match
     return Number(value=said.value, start=start, end=end, form=form)
 
 
-def _stands_alone(text: str, number: Number, said: Spoken) -> bool:
-    """Whether words without a unit are a number: no article, and no vague word of a language other than English."""
-    if said.is_article:
-        return number.form == "foreign" and text[number.start : number.end].lower() == "eines"
-    return said.value is not None or number.form == "words"
-
-
 def _in_chinese(text: str, match: re.Match[str]) -> Number:
-    start, end = match.start("chinese"), match.end()
-    numeral = match["chinese"]
+    numeral, end = match["chinese"], match.end()
     value = chinese_value(numeral)
     if value is None and numeral.endswith("千") and _THOUSANDFOLD.match(text, end):
         value, end = chinese_value(numeral[:-1]), end - 1  # 一百二十八千比特: 千比特 is the unit
-    if _VAGUELY.match(text, end) and unit_at(text, end + 1) is not None:
-        value, end = None, end + 1
-    return _signed(match, text, Number(value=value, start=start, end=end, form="chinese"))
+    return Number(value=value, start=match.start("chinese"), end=end, form="chinese")
 
 
 def chinese_value(numeral: str) -> Decimal | None:
@@ -307,7 +290,7 @@ def chinese_value(numeral: str) -> Decimal | None:
             if previous in _CHINESE_DIGITS and previous not in "零〇":
                 return None  # "三五" means three to five
             digit, scale = _CHINESE_DIGITS[letter], (1 if previous in ("", "零", "〇", "十") else scale)
-        elif letter in _CHINESE_SCALES:
+        elif _CHINESE_SCALES[letter] < 10**4:
             if previous in _CHINESE_DIGITS and section and _CHINESE_SCALES[letter] >= lowest:
                 return None  # 一百零五千: 5100, or 105 kilo-?
             scale = lowest = _CHINESE_SCALES[letter]
@@ -315,7 +298,7 @@ def chinese_value(numeral: str) -> Decimal | None:
             section, digit = section * scale if multiplies else section + (digit or 1) * scale, 0
             scale //= 10
         else:
-            scale = _CHINESE_BIG[letter]
+            scale = _CHINESE_SCALES[letter]
             total, section, digit, lowest = total + (section + digit or 1) * scale, 0, 0, scale
             scale //= 10
         previous = letter
@@ -331,17 +314,15 @@ def factors(plain: str) -> Iterator[Number]:
     """
     for match in _TIMES.finditer(plain):
         group = "zh" if match["zh"] else match.lastgroup or ""
-        start = match.start(group) if group == "counted" else match.start()
-        value = _fold(match, group)
+        word = " ".join(match[group].split())
+        if group in ("n", "x", "zhn"):
+            value = Decimal(word.replace(",", "."))
+        elif group == "zh":
+            value = chinese_value(word)
+            if value is not None and match["zhmore"].endswith("半"):
+                value += _HALF
+        else:
+            value = Decimal((_CHINESE_FOLDS if group == "zhfold" else _FOLDS)[word])
         if value is not None:
+            start = match.start(group) if group == "counted" else match.start()
             yield Number(value=value, start=start, end=match.end(), form="times")
-
-
-def _fold(match: re.Match[str], group: str) -> Decimal | None:
-    word = " ".join(match[group].lower().split())
-    if group in ("n", "x", "zhn"):
-        return Decimal(word.replace(",", "."))
-    if group == "zh":
-        value = chinese_value(word)
-        return None if value is None else value + (_HALF if match["zhmore"].endswith("半") else 0)
-    return Decimal((_CHINESE_FOLDS if group == "zhfold" else _FOLDS)[word])

@@ -13,6 +13,7 @@ above fifty right beside a word for reliability.
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping
@@ -23,15 +24,13 @@ from typing import Literal, TypeAlias
 from wirelessagent.language.comparators import Comparator, comparison
 from wirelessagent.language.mentions import is_of_each
 from wirelessagent.language.number_words import cardinals, listed
-from wirelessagent.language.numerals import Number, and_part, chinese_value, numbers
-from wirelessagent.language.text import AND, NUMBERED_USERS, USER_NOUN, Phrases, has_chinese, normalise, overlaps
+from wirelessagent.language.numerals import NUMBERED, Number, and_part, chinese_value, numbers
+from wirelessagent.language.text import AND, USER_NOUN, Phrases, has_chinese, normalise, overlaps
 from wirelessagent.language.units import Unit, unit_at, unit_of_another_time
 from wirelessagent.language.word_tables import any_word, deferred, either, words_of
 
 _SUFFIX = deferred(r"\s?(?P<suffix>[kKMG])(?![A-Za-z0-9]|/(?!\s?(?:users?|ue|person|head)\b))|m(?![A-Za-z0-9/])")
-_CHINESE_SUFFIX = deferred(
-    r"\s?(?P<suffix>[kKM])(?!\s*[A-Za-z0-9/瓦赫焦伏安米克])"
-)  # "每人2M": so are rates written there
+_CHINESE_SUFFIX = deferred(r"\s?(?P<suffix>[kKM])(?!\s*[A-Za-z0-9/瓦赫焦伏安米克])")  # "每人2M": so are rates written
 _WHO = f"(?:{any_word('figures', 'users', 'each')}|people|one)"
 _APIECE_AFTER = deferred(  # what is given to each with a mere "k" or "M" is a rate
     rf"(?i)\s*(?:{any_word('figures', 'users', 'apiece')}|"
@@ -57,9 +56,10 @@ _COUNTED = deferred(rf"(?i)\s+(?:of\s+(?:the|our|my)\s+)?(?:{USER_NOUN}|people|p
 
 # Odds, "one miss in twenty", 十次里有九次, and reliabilities, "five nines", 四个九.
 _PARTS = {
-    **{word: count for word, count in cardinals(1, 19).items() if count < 10 or count == 19},
-    **{f"{word}mal": count for word, count in cardinals(2, 9, ("de",)).items()},
+    **cardinals(1, 9),
+    **cardinals(19, 19),
     **listed("part", "odds"),
+    **{f"{word}mal": count for word, count in cardinals(2, 9, ("de",)).items()},
 }
 _WHOLES = {
     **{word: count for word, count in cardinals(10, 100).items() if count in (10, 20, 50, 100)},
@@ -103,17 +103,20 @@ class Measure:
     end: int
     factor: Decimal = Decimal(1)
 
+    @property
+    def value(self) -> float:
+        """In SI units; zero where the number is not understood."""
+        number = self.number.value or Decimal(0)
+        return self.unit.value(number) if self.unit is not None else float(number * self.factor)
+
 
 def measures(plain: str) -> list[Measure]:
-    """Every number of a normalised text with its unit, from left to right, not overlapping."""
-    shares = (each for each in odds(plain) if _COUNTED.match(plain, each[2]) is None)
-    found = [
-        Measure(
-            number=Number(value=value, start=start, end=end, form="words"),
-            unit=Unit(kind="ratio", end=end), start=start, end=end,
-        )
-        for value, start, end in (*nines(plain), *shares)
-    ]  # fmt: skip
+    """Every number of a normalised text with its unit, from left to right, not overlapping.
+
+    >>> [float(each.number.value) for each in measures("one miss in twenty, five nines, 四个九")]
+    [0.05, 0.99999, 0.9999]
+    """
+    found = [*_nines(plain), *_odds(plain)]
     for number in numbers(plain):
         if not overlaps((number.start, number.end), [(each.start, each.end) for each in found]):
             found.append(_read(plain, number))
@@ -127,21 +130,22 @@ def _read(plain: str, number: Number) -> Measure:
     share = _share(plain, number)
     if share is not None:
         return share
-    suffix = _SUFFIX.match(plain, number.end) if number.form == "digits" else None
-    spoken = number.form == "chinese" and number.value is not None and number.end - number.start > 1
+    unit, end, factor = None, number.end, Decimal(1)
+    suffix = _SUFFIX.match(plain, end) if number.form == "digits" else None
+    spoken = number.form == "chinese" and number.value is not None and end - number.start > 1
     written = (number.form == "digits" or spoken) and has_chinese(plain)
-    chinese = _CHINESE_SUFFIX.match(plain, number.end) if written else None
+    chinese = _CHINESE_SUFFIX.match(plain, end) if written else None
     if chinese is not None and not _PICTURE.match(plain, number.start):
-        unit = Unit(kind="rate", end=chinese.end(), factor=_SUFFIXES[chinese["suffix"]])
-        return Measure(number=number, unit=unit, start=number.start, end=chinese.end())
-    if suffix is not None and not GENERATION.match(plain, number.start):
-        end, factor = suffix.end(), _SUFFIXES[suffix["suffix"] or "M"]
-        if suffix["suffix"] != "G" and _is_apiece(plain, number.start, end):
-            unit = Unit(kind="rate", end=end, factor=factor)
-            return Measure(number=number, unit=unit, start=number.start, end=end)
-        if suffix["suffix"]:
-            return Measure(number=number, unit=None, start=number.start, end=end, factor=factor)
-    return Measure(number=number, unit=None, start=number.start, end=number.end)
+        end = chinese.end()
+        unit = Unit(kind="rate", end=end, factor=_SUFFIXES[chinese["suffix"]])
+    elif suffix is not None and not GENERATION.match(plain, number.start):
+        scale = _SUFFIXES[suffix["suffix"] or "M"]
+        if suffix["suffix"] != "G" and _is_apiece(plain, number.start, suffix.end()):
+            end = suffix.end()
+            unit = Unit(kind="rate", end=end, factor=scale)
+        elif suffix["suffix"]:
+            end, factor = suffix.end(), scale
+    return Measure(number=number, unit=unit, start=number.start, end=end, factor=factor)
 
 
 def _is_apiece(plain: str, start: int, end: int) -> bool:
@@ -162,8 +166,7 @@ def _with_half(plain: str, number: Number, unit: Unit) -> Measure:
             value, end = value + part[0], part[1]
         elif digit is not None and number.form == "chinese":
             value, end = value + Decimal(chinese_value(digit["digit"]) or 0) / 10, digit.end()
-    number = dataclasses.replace(number, value=value)
-    return Measure(number=number, unit=unit, start=number.start, end=end)
+    return Measure(number=dataclasses.replace(number, value=value), unit=unit, start=number.start, end=end)
 
 
 def _share(plain: str, number: Number) -> Measure | None:
@@ -174,30 +177,29 @@ def _share(plain: str, number: Number) -> Measure | None:
     over = _FRACTION.search(plain, max(0, start - 8), start)
     tenths = _TENTHS.match(plain, end)
     if over is not None:
-        below = Decimal(over["below"]) if over["below"].isdigit() else chinese_value(over["below"])
+        below = _counted(over["below"], {})
         if not below:
             return None
-        start, value = over.start(), value / below
-    elif tenths is not None and 0 < value < 10:
+        return _ratio(value / below, over.start(), end, form=number.form)
+    if tenths is not None and 0 < value < 10:
         more = "".join("5" if letter == "半" else str(chinese_value(letter)) for letter in tenths["more"])
-        end, value = tenths.end(), Decimal(f"{value}{'' if value != int(value) else '.'}{more or 0}") / 10
-    else:
-        return None
-    number = dataclasses.replace(number, value=value)
-    return Measure(number=number, unit=Unit(kind="ratio", end=end), start=start, end=end)
+        share = Decimal(f"{value}{'' if value != int(value) else '.'}{more or 0}") / 10
+        return _ratio(share, start, tenths.end(), form=number.form)
+    return None
 
 
-def odds(plain: str) -> Iterator[tuple[Decimal, int, int]]:
-    """The odds of a normalised text as ratios, and where they stand.
+def _ratio(value: Decimal, start: int, end: int, form: str = "words") -> Measure:
+    number, unit = Number(value=value, start=start, end=end, form=form), Unit(kind="ratio", end=end)
+    return Measure(number=number, unit=unit, start=start, end=end)
 
-    >>> [value for value, *_ in odds("one miss in twenty is fine")]
-    [Decimal('0.05')]
-    """
+
+def _odds(plain: str) -> Iterator[Measure]:
+    """The odds of a normalised text as ratios, "one miss in twenty", but for counts of users."""
     for match in _ODDS.finditer(plain):
         part = _counted(match["part"] or match["zhpart"] or "1", _PARTS)
         whole = _counted(match["whole"] or match["zhwhole"] or match["ordinal"], {**_WHOLES, **_ORDINALS})
-        if 0 < part < whole:
-            yield part / whole, *match.span()
+        if 0 < part < whole and _COUNTED.match(plain, match.end()) is None:
+            yield _ratio(part / whole, *match.span())
 
 
 def _counted(word: str, words: Mapping[str, int | Decimal]) -> Decimal:
@@ -207,22 +209,18 @@ def _counted(word: str, words: Mapping[str, int | Decimal]) -> Decimal:
     )
 
 
-def nines(plain: str) -> Iterator[tuple[Decimal, int, int]]:
-    """The reliabilities of a normalised text that are no percentages, as ratios, and where they stand.
-
-    >>> [float(value) for text in ("five nines", "reliability 99.9", "四个九") for value, *_ in nines(text)]
-    [0.99999, 0.999, 0.9999]
-    """
+def _nines(plain: str) -> Iterator[Measure]:
+    """The reliabilities of a normalised text that are no percentages, as ratios: "five nines", "reliability 99.9"."""
     for match in _NINES.finditer(plain):
         group = match.lastgroup or ""
-        counted = group in ("count", "zh")
-        start, end = match.span() if counted else match.span(group)
-        if unit_at(plain, end) is not None:
-            continue
-        if counted:
-            yield 1 - Decimal(10) ** -int(_counted(match[group], _HOW_MANY)), start, end
+        if group in ("count", "zh"):
+            start, end = match.span()
+            value = 1 - Decimal(10) ** -int(_counted(match[group], _HOW_MANY))
         else:
-            yield Decimal(match[group].replace(",", ".")) / 100, start, end
+            start, end = match.span(group)
+            value = Decimal(match[group].replace(",", ".")) / 100
+        if unit_at(plain, end) is None:
+            yield _ratio(value, start, end)
 
 
 QuantityKind: TypeAlias = Literal["power", "rate", "ratio", "bare", "other"]
@@ -236,7 +234,6 @@ _AFTER_BARE = deferred(
     rf"{'|'.join(either('figures', *each) for each in _NO_UNITS)}))"
 )
 _NAMES = deferred(rf"(?i)(?:{either('figures', 'named', 'numbered')}|\bno\.|[#№])\s*$")
-_USERS = deferred(rf"(?i){NUMBERED_USERS}")
 _CHINESE_COUNTED = deferred(
     r"\s*(?:[千兆]?瓦时|[千兆毫微]?(?:赫|米|秒|焦)|个|号|名|位|路|台|人|用户|小时|分钟|点|月|日|年|公里|次|倍|度|成)"
 )
@@ -254,27 +251,23 @@ _AGAIN = deferred(
     rf"(?i)(?:\s*(?P<open>[(\uff08])\s*(?:(?:[=≈]|{either('figures', 'one', 'again')})[\s.]*)?|\s*[=≈]\s*|"
     rf"\s*[,\uff0c]?\s*(?:{either('figures', 'one', 'again')})(?![a-z])[\s.,\uff0c:]*)"
 )
-_CLOSED, _DIGITS = (
-    deferred(r"(?i)\s*(?:$|[,.;:!?)\uff0c。；、)]|(?:at most|max|tops|and|or less|au plus)\b)"),
-    deferred(r"[\d\s.,]+"),
-)
+_CLOSED = deferred(r"(?i)\s*(?:$|[,.;:!?)\uff0c。；、)]|(?:at most|max|tops|and|or less|au plus)\b)")
+_DIGITS = deferred(r"[\d\s.,]+")
 _ROUNDED = 0.01
 """By how much a figure and the same in another unit may differ: 33 dBm are 1.995 W."""
-_PRICE_BEFORE, _STEP_BEFORE = (
-    deferred(rf"(?i)(?:{either('figures', 'one', name)})\s*$") for name in ("price_before", "step_before")
-)
-_PRICE_AFTER, _STEP_AFTER = (
-    deferred(rf"(?i)\s*(?:{either('figures', 'one', name)})") for name in ("price_after", "step_after")
-)
+_ONE = {  # what makes one of a unit a price or the least step, by what stands before and behind
+    name: (
+        deferred(rf"(?i)(?:{either('figures', 'one', f'{name}_before')})\s*$"),
+        deferred(rf"(?i)\s*(?:{either('figures', 'one', f'{name}_after')})"),
+    )
+    for name in ("price", "step")
+}
 
 
 def amount_of_another_time(plain: str) -> tuple[int, int] | None:
     """The first amount of bits of a normalised text that is no rate, such as "300 Mbit an hour"; it needs an answer."""
-    for number in numbers(plain):
-        end = unit_of_another_time(plain, number.end)
-        if end is not None:
-            return number.start, end
-    return None
+    ends = ((number.start, unit_of_another_time(plain, number.end)) for number in numbers(plain))
+    return next(((start, end) for start, end in ends if end is not None), None)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -309,21 +302,18 @@ def parse_quantities(text: str) -> tuple[Quantity, ...]:
     """
     plain = normalise(text)
     read = measures(plain)
+    ranges = {upper.start: lower for lower, upper in itertools.pairwise(read) if _joined(plain, lower, upper)}
     found: list[Quantity] = []
     after = 0
-    for index, measure in enumerate(read):
-        following = read[index + 1] if index + 1 < len(read) else None
-        if following is not None and following.unit is not None and _joined(plain, measure, following):
+    for measure, until in zip(read, [*(each.start for each in read[1:]), len(plain)], strict=False):
+        if measure in ranges.values():
             continue  # the lower end of a range: read together with the upper one
-        lower = read[index - 1] if index and _joined(plain, read[index - 1], measure) else None
-        if lower is not None and measure.unit is not None:
-            found.extend(_range(text, lower, measure))
-        else:
-            until = following.start if following is not None else len(plain)
-            quantity = _bounded(text, plain, measure, after=after, until=until)
-            if quantity is None:
-                continue
+        if measure.start in ranges:
+            found.extend(_range(text, ranges[measure.start], measure))
+        elif (quantity := _bounded(text, plain, measure, after=after, until=until)) is not None:
             found.append(quantity)
+        else:
+            continue
         if found[-1].kind != "bare" or found[-1].comparator is not None:  # "neither 3 nor 4 below 1 Mbit/s"
             after = found[-1].phrase_end
     return tuple(_said_once(text, plain, found))
@@ -336,9 +326,7 @@ def _said_once(text: str, plain: str, found: Iterable[Quantity]) -> list[Quantit
         first = once[-1] if once else each
         again = _AGAIN.fullmatch(plain, first.phrase_end, each.start)
         end = each.end + 1 if again and again["open"] else each.end
-        closed = (
-            _CLOSED.match(plain, max(end, each.phrase_end)) if plain[each.end : end] in ("", ")", "\uff09") else None
-        )
+        closed = plain[each.end : end] in ("", ")", "\uff09") and _CLOSED.match(plain, max(end, each.phrase_end))
         bounds = {first.comparator, each.comparator} - {None}
         units = {_DIGITS.sub("", figure.text) for figure in (first, each)}
         same = math.isclose(first.value, each.value, rel_tol=_ROUNDED) and {first.kind, each.kind} == {"power"}
@@ -354,104 +342,86 @@ def _said_once(text: str, plain: str, found: Iterable[Quantity]) -> list[Quantit
 def _joined(plain: str, lower: Measure, upper: Measure) -> bool:
     """Whether two measures are the ends of one range, "1 to 2 Mbit/s"."""
     gap = plain[lower.end : upper.start]
-    if lower.number.value is None or upper.number.value is None or _RANGE.match(gap) is None:
+    if lower.number.value is None or upper.number.value is None or upper.unit is None or _RANGE.match(gap) is None:
         return False
     if lower.unit is None and lower.factor == 1 and lower.number.value >= upper.number.value:
         return False  # "users 1 to 4 to 3 Mbit/s"
-    if lower.unit is not None and (upper.unit is None or upper.unit.kind != lower.unit.kind):
+    if lower.unit is not None and upper.unit.kind != lower.unit.kind:
         return False
     if re.fullmatch(rf"\s*{AND}\s*", gap.lower()) is None:
-        return upper.unit is not None and not (lower.unit is None and _is_name(plain, lower.start))
+        return lower.unit is not None or not _is_name(plain, lower.start)
     return re.search(r"(?i)(?:between|entre|zwischen)\s*$", plain[max(0, lower.start - 12) : lower.start]) is not None
 
 
 def _range(text: str, lower: Measure, upper: Measure) -> list[Quantity]:
     assert upper.unit is not None
-    assert lower.number.value is not None
-    assert upper.number.value is not None
-    low, high = (lower.unit or upper.unit).value(lower.number.value), upper.unit.value(upper.number.value)
-    if lower.unit is None and lower.factor != 1:
-        low = float(lower.number.value * lower.factor)  # "between 500k and 2M each"
-    spans: tuple[tuple[Measure, float, Comparator], ...] = ((lower, low, "at_least"), (upper, high, "at_most"))
+    if lower.unit is None and lower.factor == 1:  # not "between 500k and 2M each"
+        lower = dataclasses.replace(lower, unit=upper.unit)
+    bounds: tuple[tuple[Measure, Comparator], ...] = ((lower, "at_least"), (upper, "at_most"))
     return [
         Quantity(
-            value=value, kind=upper.unit.kind, text=text[part.start : part.end], start=part.start, end=part.end,
+            value=part.value, kind=upper.unit.kind, text=text[part.start : part.end], start=part.start, end=part.end,
             comparator=comparator, phrase_start=part.start, phrase_end=part.end, doubtful=upper.unit.doubtful,
         )
-        for part, value, comparator in spans
+        for part, comparator in bounds
     ]  # fmt: skip
 
 
 def _bounded(text: str, plain: str, measure: Measure, *, after: int, until: int) -> Quantity | None:
     """The quantity of one measure; its words lie between ``after`` and ``until``."""
     number, unit = measure.number, measure.unit
-    kind: QuantityKind = unit.kind if unit is not None and number.value is not None else "other"
-    bounds = comparison(plain, measure.start, measure.end, kind=kind, after=after)
-    if kind == "other" and number.value is not None:
-        kind_or_none = _kind_without_unit(plain, measure, bounded=bounds.comparator is not None)
-        if kind_or_none is None:
-            return None
-        kind = kind_or_none
-    elif number.value is None and bounds.comparator is None and unit is None:
-        return None
-    if kind == "power" and number.value == 1 and bounds.comparator is None and _is_price(plain, measure):
-        return None
-    if number.value == 1 and number.form != "digits" and bounds.comparator is None and _is_step(plain, measure):
+    kind: QuantityKind | None = unit.kind if unit is not None and number.value is not None else None
+    bounds = comparison(plain, measure.start, measure.end, kind=kind or "other", after=after)
+    kind = kind or _kind_not_understood(plain, measure, bounded=bounds.comparator is not None)
+    if kind is None or (bounds.comparator is None and _is_no_figure(plain, measure, kind)):
         return None
     article = plain[number.start : number.end].lower() in ("a", "an")
     if article and not (unit is not None and (bounds.comparator or unit.kind == "rate")):
         return None
-    value = 0.0
-    if number.value is not None and kind != "other":
-        value = unit.value(number.value) if unit is not None else float(number.value * measure.factor)
-    end = measure.end
     bounded_rate = bounds.comparator and kind == "rate"
     own = _OWN_NOUN.search(plain, max(0, bounds.start - 12), bounds.start) if bounded_rate else None
-    foreign = _FOREIGN_UNIT.match(plain, end, until) if kind == "other" and unit is None else None
-    if foreign is not None:
-        end = foreign.end()
+    foreign = _FOREIGN_UNIT.match(plain, measure.end, until) if kind == "other" and unit is None else None
+    end = measure.end if foreign is None else foreign.end()
     return Quantity(
-        value=value, kind=kind, text=text[measure.start : end], start=measure.start, end=end,
+        value=measure.value if kind != "other" else 0.0, kind=kind, text=text[measure.start : end],
+        start=measure.start, end=end,
         comparator=bounds.comparator, phrase_start=max(after, own.start("noun")) if own else bounds.start,
         phrase_end=max(end, bounds.end), doubtful=unit is not None and unit.doubtful,
     )  # fmt: skip
 
 
-def _is_price(plain: str, measure: Measure) -> bool:
-    """Whether one watt is what bits are counted for: "the most out of one watt", 一瓦换多少比特."""
-    before, after = plain[max(0, measure.start - 16) : measure.start], plain[measure.end : measure.end + 12]
-    return _PRICE_BEFORE.search(before) is not None or _PRICE_AFTER.match(after) is not None
+def _is_no_figure(plain: str, measure: Measure, kind: QuantityKind) -> bool:
+    """Whether one watt is what bits are counted for, "the most out of one watt", 一瓦换多少比特; or one unit in words
+    the least step, "not a watt more", "every megabit".
+    """
+    able = {"price": kind == "power", "step": measure.number.form != "digits"}
+    return measure.number.value == 1 and any(
+        before.search(plain, max(0, measure.start - 16), measure.start) or behind.match(plain, measure.end)
+        for name, (before, behind) in _ONE.items()
+        if able[name]
+    )
 
 
-def _is_step(plain: str, measure: Measure) -> bool:
-    """Whether one unit is the least step, not a figure: "not a watt more", "every megabit"."""
-    before = _STEP_BEFORE.search(plain, max(0, measure.start - 12), measure.start)
-    return before is not None or _STEP_AFTER.match(plain, measure.end) is not None
-
-
-def _kind_without_unit(plain: str, measure: Measure, *, bounded: bool) -> QuantityKind | None:
-    """A number without a known unit: bare, a bound that is not understood, or nothing (a count, a name)."""
+def _kind_not_understood(plain: str, measure: Measure, *, bounded: bool) -> QuantityKind | None:
+    """Without a known value or unit: bare, a bound that is not understood, or nothing (a count, a name)."""
+    if measure.number.value is None:
+        return "other" if bounded or measure.unit is not None else None
     if measure.number.form != "digits" and not bounded:
         return None
     if measure.number.form == "chinese" or _CHINESE_COUNTED.match(plain, measure.end):
         return None
-    glued = (
-        GENERATION.match(plain, measure.start) is not None or plain[max(0, measure.start - 1) : measure.start] == "/"
-    )
-    if glued or plain[measure.end : measure.end + 1] == "/":
+    if GENERATION.match(plain, measure.start) or "/" in (plain[measure.end :][:1], plain[: measure.start][-1:]):
         return "other" if bounded else None
     if _is_name(plain, measure.start, bounded=bounded):
         return None
-    if _AFTER_BARE.match(plain, measure.end) or has_chinese(plain[measure.end :].lstrip()[:1]):
+    variable = measure.factor != 1 and _VARIABLE.match(plain, measure.end)
+    if variable or _AFTER_BARE.match(plain, measure.end) or has_chinese(plain[measure.end :].lstrip()[:1]):
         return "bare"
-    if measure.factor != 1 and _VARIABLE.match(plain, measure.end):
-        return "bare"
-    apiece = _FOREIGN_APIECE.match(plain, measure.end) is not None
-    return "other" if bounded or apiece else None
+    return "other" if bounded or _FOREIGN_APIECE.match(plain, measure.end) else None
 
 
 def _is_name(plain: str, start: int, *, bounded: bool = False) -> bool:
     """Whether a number names what stands before it: "user 3", "users 1 and 2", "slot 5"; not "at 2 or more"."""
-    patterns = (_USERS,) if bounded else (_NAMES, _USERS)
+    patterns = (NUMBERED,) if bounded else (_NAMES, NUMBERED)
     named = any(pattern.search(plain, max(0, start - 40), start) is not None for pattern in patterns)
     return named and not is_of_each(plain, start)

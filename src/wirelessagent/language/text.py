@@ -16,21 +16,16 @@ from typing import TypeAlias
 
 from wirelessagent.language.word_tables import any_word, deferred
 
-_SAME_LENGTH = {
-    # Full-width ASCII, but for the comma and the semicolon: they never stand inside a number.
-    **{chr(code): chr(code - 0xFEE0) for code in range(0xFF01, 0xFF5F) if code not in (0xFF0C, 0xFF1B)},
-    **dict.fromkeys("\u3000\u00a0\u2009\u202f\t\r", " "),
-    **dict.fromkeys("\u2018\u2019\u02bc", "'"),
-    "\u00b5": "\u03bc",  # the micro sign and the Greek letter
-    "\u2212": "-",
-    "〜": "~",
-    "≦": "≤",
-    "≧": "≥",
-    "⩽": "≤",
-    "⩾": "≥",
-}
-
-_TABLE = str.maketrans(_SAME_LENGTH)
+_TABLE = str.maketrans(
+    {
+        # Full-width ASCII, but for the comma and the semicolon: they never stand inside a number.
+        **{chr(code): chr(code - 0xFEE0) for code in range(0xFF01, 0xFF5F) if code not in (0xFF0C, 0xFF1B)},
+        **dict.fromkeys("\u3000\u00a0\u2009\u202f\t\r", " "),
+        **dict.fromkeys("\u2018\u2019\u02bc", "'"),
+        "\u00b5": "\u03bc",  # the micro sign and the Greek letter
+        **dict(zip("\u2212〜≦≧⩽⩾", "-~≤≥≤≥", strict=True)),
+    }
+)
 
 Span: TypeAlias = tuple[int, int]
 """Characters [start, end) of a text."""
@@ -44,9 +39,6 @@ USER_NOUN = any_word("figures", "users", "nouns") + r"(?:\s*(?:number|nummer|nú
 
 AND = any_word("figures", "numbers", "joins")
 """What joins two of a kind, in the languages that write it apart."""
-
-NUMBERED_USERS = rf"\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|{any_word('figures', 'numbers', 'joins', 'ors')}|&|/)\s*)*$"
-"""What stands before a number that names a user: "user ", "users 1 and "."""
 
 CLAUSE_END = r"[,;:!?()\n\uff0c\uff1b。、…—]|\.(?![0-9])"
 _CUT = deferred(CLAUSE_END)

@@ -34,8 +34,8 @@ _PER_SECOND = (
 _END = r"(?![A-Za-z0-9])"
 
 _LEVEL = deferred(
-    rf"(?i:(?P<level>dbmw|dbms?|dbw){_END}|(?:decibels?|d[ée]cibel(?:io)?s|dezibel)[ -](?:milli-?watts?|"
-    rf"milivatios?){_END})|(?P<zh_level>分贝毫瓦|毫瓦分贝|分贝瓦)"
+    rf"(?P<of_a_watt>(?i:dbw){_END}|分贝瓦)|分贝毫瓦|毫瓦分贝|"
+    rf"(?i:(?:dbmw|dbms?|(?:decibels?|d[ée]cibel(?:io)?s|dezibel)[ -](?:milli-?watts?|milivatios?)){_END})"
 )
 _WATT = deferred(
     rf"(?P<symbol>[nuμmkKMG]?)[wW]{_END}|(?i:(?P<word>nano|micro|milli|mili|kilo|mega|giga)?[ -]?(?:watts?|vatios?|"
@@ -44,10 +44,10 @@ _WATT = deferred(
 )
 _BIT = deferred(
     rf"(?P<prefix>[kKmMgGtT]?)(?P<binary>i?)(?:(?P<short>[bB])(?P<ps>[pP][sS]){_END}"
-    rf"|(?P<core>(?i:bits?|bytes?|octets?)|[bB]|o(?=/s))(?:(?i:{_PER_SECOND})(?P<per>)|{_END}))"
+    rf"|(?P<core>(?i:bits?|bytes?|octets?)|[bB]|o(?=/s))(?:(?P<per>(?i:{_PER_SECOND}))|{_END}))"
 )
 _BIT_WORD = deferred(
-    rf"(?i:(?P<prefix>kilo|mega|méga|giga|tera)[ -]?(?P<core>bits?|bytes?|octets?)(?:{_PER_SECOND}(?P<per>)|{_END}))"
+    rf"(?i:(?P<prefix>kilo|mega|méga|giga|tera)[ -]?(?P<core>bits?|bytes?|octets?)(?:(?P<per>{_PER_SECOND})|{_END}))"
 )
 _SPOKEN = deferred(  # "two megs", "3 megas"; gigas are files unless there is a second
     rf"(?i:(?:(?P<mega>megs?|m[eé]gas?)|(?P<kilo>kays?)|(?P<giga>gigs?|gigas?)(?={_PER_SECOND})){_END}"
@@ -119,14 +119,28 @@ def _starts(text: str, position: int) -> list[int]:
 @functools.lru_cache(maxsize=512)
 def unit_at(text: str, position: int) -> Unit | None:
     """The unit that begins at this place of a normalised text, after at most a space or a hyphen."""
-    starts = _starts(text, position)
-    for start in starts:
-        for read in (_level, _power, _rate, _ratio):
-            found = read(text, start)
-            if found is not None:
-                strange = found.kind != "ratio" and _NOT_A_RATE_OR_POWER.match(text, found.end)
-                return None if strange or (found.kind == "rate" and _is_of_another_time(text, start, found)) else found
-    return _misspelt(text, starts[0])
+    found, is_of_another_time = _found(text, position)
+    if found is None:
+        return _misspelt(text, _starts(text, position)[0])
+    strange = found.kind != "ratio" and _NOT_A_RATE_OR_POWER.match(text, found.end)
+    return None if strange or is_of_another_time else found
+
+
+def unit_of_another_time(text: str, position: int) -> int | None:
+    """Where a unit of rate ends that is per minute or per day, after at most a space; None where there is none."""
+    found, is_of_another_time = _found(text, position)
+    return found.end if found is not None and is_of_another_time else None
+
+
+def _found(text: str, position: int) -> tuple[Unit | None, bool]:
+    """The unit, and whether it is per minute or per day: "1 Mbit per minute" is no rate of 1 Mbit/s."""
+    for start in _starts(text, position):
+        found = _unit(text, start)
+        if found is not None:
+            before = _OF_ANOTHER_TIME.search(text, max(0, start - 24), start)
+            slow = before is not None or _PER_ANOTHER_TIME.match(text, found.end) is not None
+            return found, found.kind == "rate" and slow
+    return None, False
 
 
 def _misspelt(text: str, start: int) -> Unit | None:
@@ -139,72 +153,40 @@ def _misspelt(text: str, start: int) -> Unit | None:
     return None if found is None else replace(found, end=found.end + len(match.group()) - len(word))
 
 
-def unit_of_another_time(text: str, position: int) -> int | None:
-    """Where a unit of rate ends that is per minute or per day, after at most a space; None where there is none."""
-    for start in _starts(text, position):
-        found = _rate(text, start)
-        if found is not None:
-            return found.end if _is_of_another_time(text, start, found) else None
+def _unit(text: str, start: int) -> Unit | None:
+    """What begins at this very place: a level, a power, a rate or a share, whose patterns exclude each other."""
+    if match := _LEVEL.match(text, start):
+        return Unit(kind="power", end=match.end(), level_dbm=30.0 if match["of_a_watt"] else 0.0)
+    if match := _WATT.match(text, start):
+        prefix = match["symbol"] or (match["word"] or "").lower() or match["zh"] or ""
+        return Unit(kind="power", end=match.end(), factor=Decimal(10) ** _PREFIXES[prefix])
+    if match := _BIT_ZH.match(text, start) or _BIT_WORD.match(text, start) or _BIT.match(text, start):
+        return _unit_of_bits(match)
+    if match := _SPOKEN.match(text, start):
+        return Unit(kind="rate", end=match.end(), factor=_scale(match.lastgroup or ""))
+    if match := _RATIO.match(text, start):
+        return Unit(kind="ratio", end=match.end(), factor=Decimal("0.001" if match["thousandth"] else "0.01"))
     return None
-
-
-def _is_of_another_time(text: str, start: int, found: Unit) -> bool:
-    """Whether an amount is per minute or per day: "1 Mbit per minute" is no rate of 1 Mbit/s."""
-    before = _OF_ANOTHER_TIME.search(text, max(0, start - 24), start)
-    return before is not None or _PER_ANOTHER_TIME.match(text, found.end) is not None
-
-
-def _level(text: str, start: int) -> Unit | None:
-    match = _LEVEL.match(text, start)
-    if match is None:
-        return None
-    in_watts = (match["level"] or "").lower() == "dbw" or match["zh_level"] == "分贝瓦"
-    return Unit(kind="power", end=match.end(), level_dbm=30.0 if in_watts else 0.0)
-
-
-def _power(text: str, start: int) -> Unit | None:
-    match = _WATT.match(text, start)
-    if match is None:
-        return None
-    prefix = match["symbol"] or (match["word"] or "").lower() or match["zh"] or ""
-    return Unit(kind="power", end=match.end(), factor=Decimal(10) ** _PREFIXES[prefix])
-
-
-def _rate(text: str, start: int) -> Unit | None:
-    for pattern in (_BIT_ZH, _BIT_WORD, _BIT):
-        match = pattern.match(text, start)
-        if match is not None:
-            return _unit_of_bits(match)
-    spoken = _SPOKEN.match(text, start)
-    return None if spoken is None else Unit(kind="rate", end=spoken.end(), factor=_scale(spoken.lastgroup or ""))
 
 
 def _unit_of_bits(match: re.Match[str]) -> Unit | None:
     """The rate that bits or bytes are; None for an amount of them."""
-    groups = match.groupdict()
-    prefix, core = groups.get("mega") or groups["prefix"].lower(), groups.get("short") or groups["core"] or ""
-    shouted = core == "B" and groups.get("ps") == "PS"  # in capitals throughout: the usual bps
+    said, ahead = match.groupdict(""), match.string[max(0, match.start() - 12) : match.start()]
+    core, second = said.get("short") or said["core"], said.get("ps")
+    prefix = said.get("mega") or said["prefix"].lower()
+    shouted = core == "B" and second == "PS"  # in capitals throughout: the usual bps
     is_bytes = not shouted and (core == "B" or core.lower().startswith(("byte", "o", "字节")))
-    earlier = "每秒" in match.string[max(0, match.start() - 12) : match.start()]
-    per_second = earlier or groups.get("per") is not None or groups.get("ps") is not None
-    counted = match.string[max(0, match.start() - 1) : match.start()] in ("千", "万")  # "800千比特"
-    if not per_second and (is_bytes or not (prefix or counted)):
+    per_second = second or said["per"] or "每秒" in ahead
+    if not per_second and (is_bytes or not (prefix or ahead.endswith(("千", "万")))):  # "800千比特"
         return None
-    factor = _scale(prefix, binary=bool(groups.get("binary"))) * (8 if is_bytes else 1)
-    doubtful = groups["core"] == "B" and match.group().endswith("S")
+    factor = _scale(prefix, binary=bool(said.get("binary"))) * (8 if is_bytes else 1)
+    doubtful = said["core"] == "B" and match.group().endswith("S")
     return Unit(kind="rate", end=match.end(), factor=factor, doubtful=doubtful)
 
 
 def _scale(prefix: str, *, binary: bool = False) -> Decimal:
     power = _PREFIXES["M" if prefix == "m" else prefix]
     return Decimal(1024) ** (power // 3) if binary else Decimal(10) ** power
-
-
-def _ratio(text: str, start: int) -> Unit | None:
-    match = _RATIO.match(text, start)
-    if match is None:
-        return None
-    return Unit(kind="ratio", end=match.end(), factor=Decimal("0.001" if match["thousandth"] else "0.01"))
 
 
 @functools.lru_cache(maxsize=1024)

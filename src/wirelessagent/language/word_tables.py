@@ -17,12 +17,12 @@ from typing import Any, cast
 class _Deferred:
     """Stands for the compiled expression and hands on its methods, which it keeps once they were asked for."""
 
-    def __init__(self, pattern: str, flags: int) -> None:
-        self.pattern, self._flags = pattern, flags
+    def __init__(self, pattern: str) -> None:
+        self.pattern = pattern
 
     @functools.cached_property
     def _compiled(self) -> re.Pattern[str]:
-        return re.compile(self.pattern, self._flags)
+        return re.compile(self.pattern)
 
     def __getattr__(self, name: str) -> Any:
         found = getattr(self._compiled, name)
@@ -30,13 +30,13 @@ class _Deferred:
         return found
 
 
-def deferred(pattern: str, flags: int = 0) -> re.Pattern[str]:
+def deferred(pattern: str) -> re.Pattern[str]:
     """A regular expression for its methods and its text; what wants the compiled object itself needs re.compile.
 
     >>> deferred(r"[0-9]+ W").findall("10 W and 5 W"), deferred("a+").pattern
     (['10 W', '5 W'], 'a+')
     """
-    return cast("re.Pattern[str]", _Deferred(pattern, flags))
+    return cast("re.Pattern[str]", _Deferred(pattern))
 
 
 _FOLDER = Path(__file__).parent
