@@ -209,6 +209,10 @@ class Found:
     clause: int
     corrected: bool
 
+    @property
+    def concept(self) -> str:
+        return self.term.concept
+
 
 @dataclass(frozen=True, kw_only=True)
 class Unit:
