@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.mentions import ARTICLES, Mention, Role
 from wirelessagent.language.numerals import Number
@@ -63,7 +63,10 @@ class Allotments:
     """What the users of a sentence are given, and which of them it concerns at all."""
 
     def __init__(self, reading: Reading, judged: Judged) -> None:
-        self._text, self._plain, self._judged, self._found = reading.text, reading.plain, judged, judged.mentions
+        self._reading, self._judged, self._found = reading, judged, judged.mentions
+        self._text, self._plain = reading.text, reading.plain
+        named = [user for mention in self._found if mention.role == "named" for user in mention.users]
+        reading.named = tuple(dict.fromkeys(named))
         self._given: dict[str, dict[str, _Given]] = {name: {} for name in FIGURES_OF_USERS}
         self._lists: dict[str, dict[str, str]] = {"users": {}, "leave_out": {}, "back": {}}
         self._used: set[Mention] = set()
@@ -140,7 +143,7 @@ class Allotments:
     def _write_out_the_others(self) -> None:
         """A ceiling of the others becomes one of each of them, where users are named who have none."""
         caps = self._given["max_rate_bps"]
-        free = [user for user in self.named if user not in caps]
+        free = [user for user in self._reading.named if user not in caps]
         others = [user for user in self._judged.users_of_the_cell if user not in (*free, *caps)]
         if "max_rate_bps" in self._of_others and EVERYBODY in caps and free and others:
             own = {user: given for user, given in caps.items() if user != EVERYBODY}
@@ -201,15 +204,6 @@ class Allotments:
                 if first.value != given.value:
                     self._conflicts.append(Doubt(key="conflict", names={"one": first.text, "other": given.text}))
 
-    @property
-    def back(self) -> tuple[str, ...]:
-        return tuple(self._lists["back"])
-
-    @property
-    def named(self) -> tuple[str, ...]:
-        users = [user for mention in self._found if mention.role == "named" for user in mention.users]
-        return tuple(dict.fromkeys(users))
-
     def give(self, name: str, target: Target, figure: Quantity) -> str | None:
         """Note a rate for its users; the words of an earlier one that contradicts it, or None."""
         if target.mention is not None:
@@ -251,27 +245,28 @@ class Allotments:
             return True
         return self._likely.get(mention) == "leave_out" and not self._lists["users"].keys().isdisjoint(mention.users)
 
-    def values(self) -> dict[str, Constraint]:
-        values: dict[str, Constraint] = {}
+    def settle(self) -> None:
+        """Note what users are given, the words that say so, and what cannot hold together."""
+        reading, served = self._reading, self._lists["users"].keys()
         for name, given in self._given.items():
             figures = {user: each.value for user, each in given.items()}
             if name == "weights" and (figures.get(EVERYBODY) == 1 or set(figures) == {EVERYBODY}):
                 del figures[EVERYBODY]  # "all others 1" is what they count anyway
-            if set(figures) == {EVERYBODY}:
-                values[name] = figures[EVERYBODY]
+            same_for_all = name != "weights" and len(set(figures.values())) == 1 and figures.keys() == served
+            if same_for_all or set(figures) == {EVERYBODY}:
+                reading.values[name] = next(iter(figures.values()))
             elif figures:
-                one_for_all_served = len(set(figures.values())) == 1 and figures.keys() == self._lists["users"].keys()
-                rated = name != "weights" and one_for_all_served
-                values[name] = next(iter(figures.values())) if rated else figures
-        return values | {name: tuple(self._lists[name]) for name in LISTS_OF_USERS if self._lists[name]}
-
-    def evidence(self) -> dict[str, str]:
+                reading.values[name] = figures
+        reading.values |= {name: tuple(self._lists[name]) for name in LISTS_OF_USERS if self._lists[name]}
         words = {name: [each.text for each in self._given[name].values()] for name in _RATES}
         words |= {name: list(self._lists[name].values()) for name in LISTS_OF_USERS}
         words["weights"] = [each.text for each in self._given["weights"].values()]
-        return {name: " … ".join(dict.fromkeys(texts)) for name, texts in words.items() if texts}
+        reading.evidence |= {name: " … ".join(dict.fromkeys(texts)) for name, texts in words.items() if texts}
+        reading.doubts += self._crossed()
+        reading.masked += self.spans
+        reading.back = tuple(self._lists["back"])
 
-    def crossed(self) -> Iterator[Doubt]:
+    def _crossed(self) -> Iterator[Doubt]:
         """The questions that figures raise which cannot hold together."""
         yield from self._conflicts
         low, high = (self._given[name] for name in _RATES)
@@ -507,8 +502,5 @@ class _Reader:
             reading.doubt("named_user", text=reading.text[start:end])
         if _STEP.search(reading.plain) is not None:
             reading.steps.setdefault("power_w", 1.0)
-        reading.doubts += allotted.crossed()
-        reading.values |= allotted.values()
-        reading.evidence |= allotted.evidence()
-        reading.masked += allotted.spans
-        reading.back, reading.named, reading.strangers = allotted.back, allotted.named, self._judged.strangers
+        reading.strangers = self._judged.strangers
+        allotted.settle()

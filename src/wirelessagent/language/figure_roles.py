@@ -377,10 +377,7 @@ class View:
         place = self._places[start]
         mentioned = [kind for kind in self._kinds if kind in _PEOPLE]
         nobody = {"bias", "nobody", f"nobody:{len(mentioned)}", *(f"nobody:{kind}" for kind in mentioned)}
-        return [
-            nobody if mention is None else _between(self._tokens, place, self._places[mention.start])
-            for mention in candidates
-        ]
+        return [nobody if m is None else _between(self._tokens, place, self._places[m.start]) for m in candidates]
 
 
 def _first(none: int, places: Sequence[int], speaks: Callable[[int], float]) -> int:

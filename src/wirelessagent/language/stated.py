@@ -100,12 +100,11 @@ def unread(plain: str, covered: Sequence[Span]) -> Span | None:
     '43 dB'
     """
     known = [*covered, *idioms(plain)]
-    places = sorted(place for place in _numbers_at(plain) if not overlaps((place, place + 1), known))
-    if not places:
+    first = min((place for place in _numbers_at(plain) if not overlaps((place, place + 1), known)), default=None)
+    if first is None:
         return None
-    match = _TO_THE_RIGHT.match(plain, places[0])
-    end = match.end() if match is not None else places[0]
-    return places[0], max(end, places[0] + 1)
+    match = _TO_THE_RIGHT.match(plain, first)
+    return first, max(match.end() if match is not None else 0, first + 1)
 
 
 @functools.lru_cache(maxsize=64)
