@@ -26,7 +26,7 @@ def texts() -> list[str]:
 
 
 def test_every_match_holds_a_mark():
-    assert len(MARKED) > 6
+    assert len(MARKED) > 5
     for name, pattern in MARKED.items():
         missed = [text for text in texts() if not pattern.may_match(text) and pattern.compiled.search(text)]
         assert not missed, (name, missed[:3])

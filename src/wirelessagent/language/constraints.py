@@ -9,16 +9,15 @@ from __future__ import annotations
 
 import itertools
 import math
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.mentions import ARTICLES, Mention, Role
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.stated import Doubt, Reading, doubt_parts, take_blocks, take_counts
+from wirelessagent.language.stated import Beside, Doubt, Reading, doubt_parts, take_blocks, take_counts
 from wirelessagent.language.text import AND, Phrases, clause_end, clause_start, overlaps
 from wirelessagent.language.word_tables import deferred, either
 
@@ -27,7 +26,7 @@ _SAID = 0.4
 _RATES = ("min_rate_bps", "max_rate_bps")
 _LEAVING = Phrases(either("figures", "users", "leaving"))
 _ALIKE = either("figures", "users", "alike")
-_ALIKE_AHEAD, _ALIKE_BEHIND = (
+_GIVEN_ALIKE = Beside(
     deferred(rf"(?i)(?:{_ALIKE})\s*(?:{either('figures', 'users', 'given_to')})\s*(?:(?:{ARTICLES})\s*)?$"),
     deferred(
         rf"(?i)\s*号?\s*(?:(?:{either('figures', 'users', 'takes')})\s*)?(?:{_ALIKE})"
@@ -63,24 +62,26 @@ class _Given:
 class Allotments:
     """What the users of a sentence are given, and which of them it concerns at all."""
 
-    def __init__(self, text: str, plain: str, judged: Judged) -> None:
-        self._text, self._plain, self._judged, self._found = text, plain, judged, judged.mentions
+    def __init__(self, reading: Reading, judged: Judged) -> None:
+        self._reading, self._judged, self._found = reading, judged, judged.mentions
+        self._text, self._plain = reading.text, reading.plain
+        named = [user for mention in self._found if mention.role == "named" for user in mention.users]
+        reading.named = tuple(dict.fromkeys(named))
         self._given: dict[str, dict[str, _Given]] = {name: {} for name in FIGURES_OF_USERS}
         self._lists: dict[str, dict[str, str]] = {"users": {}, "leave_out": {}, "back": {}}
         self._used: set[Mention] = set()
         self._conflicts: list[Doubt] = []
         self._of_others: set[str] = set()
         self.spans: list[tuple[int, int]] = []
-        self.marks: list[tuple[int, int, str]] = []
         self._roles: dict[Mention, str] = {}
         self._likely: dict[Mention, str] = {}
         for mention in self._found:
             role = self._assign(mention) if mention.role in ("named", "pronoun") else mention.role
-            self.marks.append((mention.start, mention.end, role + "+" * (len(mention.users) > 1)))
+            reading.marks.append((mention.start, mention.end, role + "+" * (len(mention.users) > 1)))
         self._one_each = dict(self._one_for_each())
         for number in judged.weights:
             self._weigh(number)
-            self.marks.append((number.start, number.end, "weight"))
+            reading.marks.append((number.start, number.end, "weight"))
 
     def _assign(self, mention: Mention) -> str:
         """Note what somebody is there for, which is given back."""
@@ -88,22 +89,18 @@ class Allotments:
         if role == "given" or not meant.users:
             return role
         self._roles[mention] = role
-        if role == "exempt":
-            self._mask_a_clause(mention)
+        if role == "exempt":  # a clause that only says to whom nothing is promised: "user 7 has no least rate"
+            start, end = clause_start(self._plain, mention.start), clause_end(self._plain, mention.end)
+            if not any(start <= figure.start < end for figure in self._judged.figures):
+                self.spans.append((start, end))
         if role in _UNSETTLED:
             return role
         self._used |= {mention, meant.mention or mention}
-        start, end = self._judged.telling(mention, role)
+        start, end = self._judged.view.telling(mention, role)
         self.spans.append((start, end))
         if role not in _SILENT:
             self._lists[role] |= dict.fromkeys(meant.users, self._text[start:end])
         return role
-
-    def _mask_a_clause(self, mention: Mention) -> None:
-        """A clause that only says to whom nothing is promised wishes nothing: "user 7 has no least rate"."""
-        start, end = clause_start(self._plain, mention.start), clause_end(self._plain, mention.end)
-        if not any(start <= figure.start < end for figure in self._judged.figures):
-            self.spans.append((start, end))
 
     def _exempt(self) -> None:
         """A floor of zero for whoever is excepted where all others have one, and nothing else may be meant.
@@ -129,8 +126,8 @@ class Allotments:
         for before, mention in itertools.pairwise(named):
             start = max(before.end, clause_start(self._plain, mention.start))
             between = [figure for figure in self._judged.figures if start <= figure.start < mention.end]
-            ahead = _ALIKE_AHEAD.search(self._plain, before.end, mention.start)
-            said = ahead or _ALIKE_BEHIND.match(self._plain, mention.end)
+            ahead = _GIVEN_ALIKE.ahead.search(self._plain, before.end, mention.start)
+            said = ahead or _GIVEN_ALIKE.behind.match(self._plain, mention.end)
             own = any(user in given for given in self._given.values() for user in mention.users)
             if between or said is None or own or mention in self._used:
                 continue
@@ -146,7 +143,7 @@ class Allotments:
     def _write_out_the_others(self) -> None:
         """A ceiling of the others becomes one of each of them, where users are named who have none."""
         caps = self._given["max_rate_bps"]
-        free = [user for user in self.named if user not in caps]
+        free = [user for user in self._reading.named if user not in caps]
         others = [user for user in self._judged.users_of_the_cell if user not in (*free, *caps)]
         if "max_rate_bps" in self._of_others and EVERYBODY in caps and free and others:
             own = {user: given for user, given in caps.items() if user != EVERYBODY}
@@ -163,10 +160,6 @@ class Allotments:
         if role == "given" or (chances[role] > sure and said[role] > _SAID and not unsaid):
             return role
         return "unclear" if mention.role == "named" and chances["given"] < _SURE_OF_NO_ROLE else "given"
-
-    def _meant_by(self, pronoun: Mention) -> Target:
-        named = [other for other in self._found if other.role == "named" and other.end <= pronoun.start]
-        return Target(role="named", users=named[-1].users, mention=named[-1]) if named else Target(role="everybody")
 
     def _one_for_each(self) -> Iterator[tuple[int, Target]]:
         """The figures of lists as long as a list of users, one for each: "users 1 and 4 get 2 and 3 Mbit/s"."""
@@ -185,20 +178,19 @@ class Allotments:
         candidates = [each for each in self._found if self._roles.get(each) not in ("leave_out", "exempt")]
         chances = self._judged.owners(start, candidates)
         target = self._target(max(chances, key=lambda mention: chances[mention]))
-        same = [chance for mention, chance in chances.items() if self._are_the_same(self._target(mention), target)]
-        sure = sum(same) > _SURE_OF_AN_OWNER
-        return replace(target, sure=sure)
-
-    def _are_the_same(self, one: Target, other: Target) -> bool:
-        """Whether two targets are the same users; everybody are those who are served alone."""
-        served = set(self._lists["users"])
-        return set(one.keys) == set(other.keys) or {*one.keys, *other.keys} == {EVERYBODY, *served}
+        own, served, same = set(target.keys), {EVERYBODY, *self._lists["users"]}, 0.0
+        for mention, chance in chances.items():
+            keys = set(self._target(mention).keys)
+            if keys == own or keys | own == served:  # everybody are those who are served alone
+                same += chance
+        return replace(target, sure=same > _SURE_OF_AN_OWNER)
 
     def _target(self, mention: Mention | None) -> Target:
+        if mention is not None and mention.role == "pronoun":
+            named = [other for other in self._found if other.role == "named" and other.end <= mention.start]
+            mention = named[-1] if named else None
         if mention is None:
             return Target(role="everybody")
-        if mention.role == "pronoun":
-            return self._meant_by(mention)
         return Target(role=mention.role, users=mention.users, mention=mention)
 
     def _weigh(self, number: Number) -> None:
@@ -211,15 +203,6 @@ class Allotments:
                 first = self._given["weights"].setdefault(user, given)
                 if first.value != given.value:
                     self._conflicts.append(Doubt(key="conflict", names={"one": first.text, "other": given.text}))
-
-    @property
-    def back(self) -> tuple[str, ...]:
-        return tuple(self._lists["back"])
-
-    @property
-    def named(self) -> tuple[str, ...]:
-        users = [user for mention in self._found if mention.role == "named" for user in mention.users]
-        return tuple(dict.fromkeys(users))
 
     def give(self, name: str, target: Target, figure: Quantity) -> str | None:
         """Note a rate for its users; the words of an earlier one that contradicts it, or None."""
@@ -246,7 +229,9 @@ class Allotments:
             if mention.role != "named":
                 continue
             self.spans.append((mention.start, mention.end))
-            unsure = self._roles.get(mention) in _UNSETTLED and not self._said_elsewhere(mention)
+            others = {user for other in self._used if other != mention for user in other.users}
+            elsewhere = others.union(self._given["weights"]).issuperset(mention.users)
+            unsure = self._roles.get(mention) in _UNSETTLED and not elsewhere
             if unsure or not spoken_of.issuperset(mention.users) or self._is_at_odds(mention):
                 yield mention.start, mention.end
 
@@ -260,35 +245,28 @@ class Allotments:
             return True
         return self._likely.get(mention) == "leave_out" and not self._lists["users"].keys().isdisjoint(mention.users)
 
-    def _said_elsewhere(self, mention: Mention) -> bool:
-        """Whether everybody of a mention is settled by another, or by a weight."""
-        others = {user for other in self._used if other != mention for user in other.users}
-        return others.union(self._given["weights"]).issuperset(mention.users)
-
-    def values(self) -> dict[str, Constraint]:
-        values: dict[str, Constraint] = {}
+    def settle(self) -> None:
+        """Note what users are given, the words that say so, and what cannot hold together."""
+        reading, served = self._reading, self._lists["users"].keys()
         for name, given in self._given.items():
             figures = {user: each.value for user, each in given.items()}
             if name == "weights" and (figures.get(EVERYBODY) == 1 or set(figures) == {EVERYBODY}):
                 del figures[EVERYBODY]  # "all others 1" is what they count anyway
-            if set(figures) == {EVERYBODY}:
-                values[name] = figures[EVERYBODY]
+            same_for_all = name != "weights" and len(set(figures.values())) == 1 and figures.keys() == served
+            if same_for_all or set(figures) == {EVERYBODY}:
+                reading.values[name] = next(iter(figures.values()))
             elif figures:
-                values[name] = figures if name == "weights" else self._of_all_served(figures)
-        return values | {name: tuple(self._lists[name]) for name in LISTS_OF_USERS if self._lists[name]}
-
-    def _of_all_served(self, figures: dict[str, float]) -> Constraint:
-        """Rates by user; one figure where it is that of everybody who is served."""
-        same = len(set(figures.values())) == 1 and set(figures) == set(self._lists["users"])
-        return next(iter(figures.values())) if same else figures
-
-    def evidence(self) -> dict[str, str]:
+                reading.values[name] = figures
+        reading.values |= {name: tuple(self._lists[name]) for name in LISTS_OF_USERS if self._lists[name]}
         words = {name: [each.text for each in self._given[name].values()] for name in _RATES}
         words |= {name: list(self._lists[name].values()) for name in LISTS_OF_USERS}
         words["weights"] = [each.text for each in self._given["weights"].values()]
-        return {name: " … ".join(dict.fromkeys(texts)) for name, texts in words.items() if texts}
+        reading.evidence |= {name: " … ".join(dict.fromkeys(texts)) for name, texts in words.items() if texts}
+        reading.doubts += self._crossed()
+        reading.masked += self.spans
+        reading.back = tuple(self._lists["back"])
 
-    def crossed(self) -> Iterator[Doubt]:
+    def _crossed(self) -> Iterator[Doubt]:
         """The questions that figures raise which cannot hold together."""
         yield from self._conflicts
         low, high = (self._given[name] for name in _RATES)
@@ -310,10 +288,10 @@ _NOUNS = "|".join(either("figures", "bounds", name) for name in ("between", "rat
 _FOR = deferred(r"(?i)\s*(?:\b(?:for|to|für|para|pour|à)\b|给)\s*(?:the\s+|l'\s?|el\s+|los\s+|les\s+)?")
 _TAKES = either("figures", "users", "takes")
 _GETS = deferred(rf"(?i)\s*(?:{_TAKES})\s*(?:(?:only|nur|solo|seulement)\s+)?")
-_SINGLY = either("figures", "users", "singly")
-_SINGLY_AHEAD, _SINGLY_BEHIND = (
-    deferred(rf"(?i)(?:{_SINGLY})\s*(?:(?:{_TAKES})\s*)?$"),
-    deferred(rf"(?i)\s*(?:(?:for|für|para|pour)\s+)?(?:{_SINGLY})"),
+_ONE = either("figures", "users", "singly")
+_SINGLY = Beside(
+    deferred(rf"(?i)(?:{_ONE})\s*(?:(?:{_TAKES})\s*)?$"),
+    deferred(rf"(?i)\s*(?:(?:for|für|para|pour)\s+)?(?:{_ONE})"),
 )
 _NEITHER = deferred(rf"(?i)(?:{either('figures', 'users', 'neither')})\s*$")
 _GIVEN = 0.5
@@ -336,10 +314,10 @@ _SURE, _SURE_OF_A_LIMIT = 0.6, {"power": 0.75, "rate": 0.6, "ratio": 0.6}
 """Most figures are limits, so that the model takes a strange one for one too easily."""
 
 
-def _said_of(name: str) -> tuple[re.Pattern[str], re.Pattern[str]]:
-    """Words of a list right ahead of a figure, and right behind."""
+def _said_of(name: str) -> Beside:
+    """Words of a list beside a figure."""
     words = either("figures", "bounds", name)
-    return (
+    return Beside(
         deferred(rf"(?i)(?:{words})(?:[\s:=]*(?:{_NOUNS}))*[\s:=]*$"),
         deferred(rf"(?i)\s*(?:(?:each|apiece|per \w+)\s+)?(?:{words})"),
     )
@@ -361,7 +339,7 @@ def read_constraints(
     reader.take_numbers()
     reader.take_figures()
     reader.take_users()
-    return reader.result()
+    return reading
 
 
 class _Reader:
@@ -374,18 +352,7 @@ class _Reader:
             reading.take_group(float(number.value or 0), (number.start, number.end))
         if self._judged.groups:  # which are no figures to calculate with
             self._judged = Judged(reading.plain, reading.quantities, names, reading.spoken_for)
-        self._allotments = Allotments(reading.text, reading.plain, self._judged)
-
-    def result(self) -> Reading:
-        """The reading, with what the users of the sentence are given."""
-        reading, allotted = self._reading, self._allotments
-        reading.doubts += allotted.crossed()
-        reading.values |= allotted.values()
-        reading.evidence |= allotted.evidence()
-        reading.masked += allotted.spans
-        reading.marks += allotted.marks
-        reading.back, reading.named, reading.strangers = allotted.back, allotted.named, self._judged.strangers
-        return reading
+        self._allotments = Allotments(reading, self._judged)
 
     def take_numbers(self) -> None:
         """Numbers without a unit: users, weights, descriptions and what borrows a unit are settled."""
@@ -433,21 +400,25 @@ class _Reader:
             return "change"
         reading, chances = self._reading, self._judged.figure(index)
         role = self._judged.role(index)
+        following = [other for other in self._judged.figures[index + 1 : index + 2] if other.kind == figure.kind]
         limits = sum(chances.get(name, 0.0) for name in _LIMITS)
         if role in _ASKED:
             if role == "change":
                 reading.steps["power_w" if figure.kind == "power" else "rate_bps"] = figure.value
             return _ASKED[role]
+        if role == "unclear" and following:  # nobody could say which holds: "10 W or 12 W"
+            reading.doubt("conflict", one=figure.text, other=following[0].text)
+            return ""
         if role == "unclear":
-            return self._asked_which(index, figure)
+            return _UNSURE[figure.kind]
         if role not in _LIMITS:
             if 1 - limits < _SURE:
                 return _UNSURE[figure.kind]
             alike = [other for other in self._judged.figures if other.kind == figure.kind]
             if role == "refused" and len(alike) == 1:
                 return "refused"
-            if role == "stale":
-                self._mask_a_correction(index, figure)
+            if role == "stale":  # the words by which the next figure takes its place wish and deny nothing
+                reading.masked += [(figure.end, other.start) for other in following if other.start - figure.end < _NEAR]
             if role == "missing":
                 reading.missing = figure.value
                 reading.not_used.append(figure.text)
@@ -459,20 +430,6 @@ class _Reader:
         if figure.kind == "ratio" and not (0 < figure.value < 1 or (role == "share" and figure.value == 1)):
             return "impossible"
         return self._limited(index, figure)
-
-    def _mask_a_correction(self, index: int, figure: Quantity) -> None:
-        """The words by which a figure takes the place of the one before it wish and deny nothing."""
-        for other in self._judged.figures[index + 1 : index + 2]:
-            if other.kind == figure.kind and other.start - figure.end < _NEAR:
-                self._reading.masked.append((figure.end, other.start))
-
-    def _asked_which(self, index: int, figure: Quantity) -> str:
-        """What to ask about a figure of which nobody could say what it is; of two, which holds: "10 W or 12 W"."""
-        following = self._judged.figures[index + 1 : index + 2]
-        if following and following[0].kind == figure.kind:
-            self._reading.doubt("conflict", one=figure.text, other=following[0].text)
-            return ""
-        return _UNSURE[figure.kind]
 
     def _limited(self, index: int, figure: Quantity) -> str:
         """Take a figure as a limit, or say what is to be asked."""
@@ -513,21 +470,21 @@ class _Reader:
                     self._reading.doubt("conflict", one=earlier, other=figure.text)
         return ""
 
-    def _with(self, said: tuple[re.Pattern[str], re.Pattern[str]], figure: Quantity) -> str:
+    def _with(self, said: Beside, figure: Quantity) -> str:
         """A figure with such words ahead or behind, at most its users between: "1 Mbit/s on average"; "" for none."""
         plain, start, end = self._reading.plain, figure.phrase_start, figure.phrase_end
         users = [each for each in self._judged.mentions if each.role == "named"]
         starts = [start, *(each.start for each in users if not plain[each.end : start].strip() and each.end <= start)]
         ends = [end, *(each.end for each in users if _FOR.fullmatch(plain, end, each.start))]
-        ahead = [match.start() for at in starts if (match := said[0].search(plain, clause_start(plain, at), at))]
-        behind = [match.end() for at in ends if (match := said[1].match(plain, at))]
+        ahead = [match.start() for at in starts if (match := said.ahead.search(plain, clause_start(plain, at), at))]
+        behind = [match.end() for at in ends if (match := said.behind.match(plain, at))]
         spans = [*((first, end) for first in ahead), *((start, last) for last in behind)]
         return self._reading.text[slice(*spans[0])].strip() if spans else ""
 
     def _is_of_a_user(self, figure: Quantity) -> bool:
         """Whether a power is said to be somebody's who has no rate: "2 W for user 3", "no user above 2 W"."""
         plain, start, end = self._reading.plain, figure.phrase_start, figure.phrase_end
-        if _SINGLY_BEHIND.match(plain, end) or _SINGLY_AHEAD.search(plain, clause_start(plain, start), start):
+        if _SINGLY.is_at(plain, start, end, clause_start(plain, start)):
             return True
         users = (user for user in self._judged.mentions if user.role == "named")
         beside = (
@@ -537,7 +494,7 @@ class _Reader:
         return any(self._judged.user(user).get("given", 0.0) < _GIVEN for user in beside)
 
     def take_users(self) -> None:
-        """Users who are counted, some of them, and those named who get nothing, of whom each raises a doubt."""
+        """What users are given, and those who are counted, some of them, or named for nothing: each is a doubt."""
         reading, allotted = self._reading, self._allotments
         take_counts(reading, self._judged.recounted, allotted.spans)
         doubt_parts(reading, allotted.spans)
@@ -545,3 +502,5 @@ class _Reader:
             reading.doubt("named_user", text=reading.text[start:end])
         if _STEP.search(reading.plain) is not None:
             reading.steps.setdefault("power_w", 1.0)
+        reading.strangers = self._judged.strangers
+        allotted.settle()

@@ -16,8 +16,8 @@ import functools
 import itertools
 import math
 import zlib
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple, TypeVar
 
@@ -49,21 +49,14 @@ class Token(NamedTuple):
 
 def tokens_of(plain: str, placed: Iterable[Token]) -> list[Token]:
     """The tokens of a normalised sentence from left to right, those among them that are ``placed`` already."""
-    found: list[Token] = []
-    place = 0
-    for token in sorted(placed, key=lambda each: (each.start, -each.end)):
-        if token.start < place:
-            continue
-        found.extend(_words(plain, place, token.start))
-        found.append(token)
-        place = token.end
-    found.extend(_words(plain, place, len(plain)))
-    return found
-
-
-def _words(plain: str, start: int, end: int) -> Iterator[Token]:
-    for match in _TOKEN.finditer(plain, start, end):
-        yield Token(_simple(match.group()), *match.span())
+    found, place = list[Token](), 0
+    end = Token("", len(plain))
+    for token in (*sorted(placed, key=lambda each: (each.start, -each.end)), end):
+        if token.start >= place:
+            words = _TOKEN.finditer(plain, place, token.start)
+            found += [*(Token(_simple(match.group()), *match.span()) for match in words), token]
+            place = token.end
+    return found[:-1]
 
 
 @functools.lru_cache(maxsize=4096)
@@ -75,15 +68,10 @@ def _simple(word: str) -> str:
 def in_base_words(tokens: Sequence[Token], language: str) -> list[Token]:
     """The same with base words, which five languages share, in place of words; placeholders stay what they are."""
     found: list[Token] = []
-    words: list[str] = []
-    for token in (*tokens, Token("@", -1)):
-        if token.word[0] != "@":
-            words.append(token.word)
-            continue
-        found.extend(Token(word, -1) for word in based(words, language))
-        words = []
-        found.append(token)
-    return found[:-1]
+    for is_placed, run in itertools.groupby(tokens, key=lambda token: token.word[0] == "@"):
+        said = list(run)
+        found += said if is_placed else [Token(word, -1) for word in based([each.word for each in said], language)]
+    return found
 
 
 def around_base(tokens: Sequence[Token], place: int) -> set[str]:
@@ -91,16 +79,13 @@ def around_base(tokens: Sequence[Token], place: int) -> set[str]:
     found: set[str] = set()
     near: list[str] = []
     for side, words in _sides(tokens, place, _BASE_REACH):
-        clause = list(itertools.takewhile(lambda word: word not in _CLAUSE_ENDS, words))
-        near += [f"{side}{word}" for word in clause[:_PAIRED]]
-        where, previous = f"base {side}0", ""
-        for distance, word in enumerate(words, start=1):
+        end = _end_of_clause(words)
+        near += [f"{side}{word}" for word in words[: min(end, _PAIRED)]]
+        for place, (previous, word) in enumerate(itertools.pairwise(["", *words])):
+            where = f"base {side}{int(place > end)}"
             found |= {f"{where}{word}", f"{where}{previous} {word}"}
-            if distance <= _BASE_NEAR:
+            if place < _BASE_NEAR:
                 found |= {f"{where}~{word}", f"base {word}"}
-            if word in _CLAUSE_ENDS:
-                where = f"base {side}1"
-            previous = word
     found.update(f"pair {one} {other}" for one, other in itertools.combinations(sorted(set(near)), 2))
     return found
 
@@ -124,40 +109,33 @@ def _sides(tokens: Sequence[Token], place: int, reach: int) -> tuple[tuple[str, 
     return ("L", left[::-1]), ("R", [token.word for token in tokens[place + 1 : place + 1 + reach]])
 
 
+def _end_of_clause(words: Sequence[str]) -> int:
+    return next((place for place, word in enumerate(words) if word in _CLAUSE_ENDS), len(words))
+
+
 def _add_words(found: set[str], side: str, words: Sequence[str]) -> None:
     """Single words, pairs and triples of one side, by how many clauses lie between."""
-    clauses, where, previous, before_previous = 0, f"{side}0", "", ""
-    for distance, word in enumerate(words, start=1):
-        found.add(f"{where}{word}")
-        if distance <= 4:
-            found.add(f"{where}{'=' if distance < 2 else '~'}{word}")
-        if previous:
-            found.add(f"{where}{previous} {word}")
-            if before_previous and distance <= 6:
-                found.add(f"{where}{before_previous} {previous} {word}")
-        if word in _CLAUSE_ENDS:
-            clauses += 1
-            where = f"{side}{min(clauses, 2)}"
-        before_previous, previous = previous, word
+    clauses = 0
+    for place, word in enumerate(words):
+        where = f"{side}{min(clauses, 2)}"
+        firsts = range(max(0, place - (2 if place < 6 else 1)), place + 1)
+        found |= {f"{where}{' '.join(words[first : place + 1])}" for first in firsts}
+        if place < 4:
+            found.add(f"{where}{'~' if place else '='}{word}")
+        clauses += word in _CLAUSE_ENDS
     if len(words) < _REACH:
         found.add(f"{side}{min(clauses, 1)}end{min(len(words) + 1, 3)}")
 
 
 def _add_near(found: set[str], side: str, words: Sequence[str]) -> None:
     """The words of the same clause on one side whatever their order, with their letters, and the next placeholder."""
-    same_clause, next_known = True, False
-    for word in words:
-        if word[0] == "@" and not next_known:
-            next_known = True
-            found.add(f"{side}next{not same_clause}{word}")
-        elif same_clause:
-            found.add(f"near {word}")
-            if len(word) > 4:
-                found.update(_letters(word))
-        if word in _CLAUSE_ENDS:
-            same_clause = False
-            if next_known:
-                return
+    end = _end_of_clause(words)
+    known = next((place for place, word in enumerate(words) if word[0] == "@"), len(words))
+    if known < len(words):
+        found.add(f"{side}next{known > end}{words[known]}")
+    for place, word in enumerate(words[: end + 1]):
+        if place != known:
+            found |= {f"near {word}", *(_letters(word) if len(word) > 4 else ())}
 
 
 @functools.lru_cache(maxsize=4096)
@@ -238,29 +216,44 @@ def shipped_roles() -> RoleModel:
         )
 
 
-class View:
-    """A normalised sentence as tokens in which figures and users are placeholders, and the features of each.
+@dataclass(frozen=True, kw_only=True)
+class Look:
+    """What a sentence holds: figures with a unit, everybody mentioned, the numbers that are neither.
 
-    ``figures`` are its quantities with a unit, ``found`` everybody mentioned, ``loose`` the numbers that are neither,
-    ``ones`` words such as "one" that may be a figure and stay words.
+    ``ones`` are words such as "one", which are figures or nothing; ``unread`` bounds whose unit nobody knows.
     """
 
-    def __init__(
-        self,
-        plain: str,
-        figures: Sequence[Quantity],
-        found: Sequence[Mention],
-        loose: Sequence[Number],
-        ones: Sequence[Number] = (),
-    ) -> None:
-        placed = [Token(f"@{q.kind}", q.start, q.end) for q in figures]
-        placed += [Token(_placeholder(plain, m), m.start, m.end) for m in found]
-        placed += [Token("@number", n.start, n.end) for n in loose]
-        self._plain, self._figures, self._mentions, self._loose, self._ones = plain, figures, found, loose, ones
+    plain: str
+    quantities: Sequence[Quantity]
+    figures: list[Quantity]
+    unread: list[Quantity]
+    mentions: list[Mention]
+    loose: list[Number]
+    ones: list[Number]
+
+    def view(self) -> View:
+        return View(self)
+
+    def bound(self, number: Number) -> str:
+        """How a number is bounded: "at_most", "None" without a comparator, "" where it is nothing but a number."""
+        return next((str(q.comparator) for q in self.quantities if q.start <= number.start < q.end), "")
+
+
+class View:
+    """A look at a sentence as tokens in which figures and users are placeholders, and the features of each.
+
+    ``ones`` that may be a figure stay words.
+    """
+
+    def __init__(self, look: Look) -> None:
+        placed = [Token(f"@{q.kind}", q.start, q.end) for q in look.figures]
+        placed += [Token(_placeholder(look.plain, m), m.start, m.end) for m in look.mentions]
+        placed += [Token("@number", n.start, n.end) for n in look.loose]
+        self._look, self._plain, self._figures = look, look.plain, look.figures
         self._placed = [token for token in placed if token.word != _PLACEHOLDERS["pronoun"]]
-        self._tokens = tokens_of(plain, placed)
-        starts = {number.start for number in ones}
-        self._language = language_of(plain)
+        self._tokens = tokens_of(look.plain, placed)
+        starts = {number.start for number in look.ones}
+        self._language = language_of(look.plain)
         self._base = in_base_words(self._tokens, self._language)
         self._base_places = {token.start: place for place, token in enumerate(self._base) if token.start >= 0}
         self._places = {
@@ -269,7 +262,7 @@ class View:
             if token.word[0] == "@" or token.start in starts
         }
         self._kinds = [token.word for token in self._tokens]
-        self._users = {user for mention in found for user in mention.users}
+        self._users = {user for mention in look.mentions for user in mention.users}
         self._held = {f"has:{kind}" for kind in self._kinds if kind[0] == "@"}
 
     def figure(self, index: int) -> set[str]:
@@ -316,10 +309,8 @@ class View:
         """How strongly a sentence without the words from ``start`` to ``end`` beside somebody speaks for a role."""
         plain, blank = self._plain, " " * len(self._plain)
         left = plain[:start] + blank[start : mention.start] + plain[mention.start : mention.end]
-        view = View(
-            left + blank[mention.end : end] + plain[end:], self._figures, self._mentions, self._loose, self._ones
-        )
-        chance = answers("user", view.user(mention))[role]
+        look = replace(self._look, plain=left + blank[mention.end : end] + plain[end:])
+        chance = answers("user", look.view().user(mention))[role]
         return math.log((chance + _TINY) / (1 - chance + _TINY))
 
     def number(self, number: Number, bound: str = "") -> set[str]:
@@ -386,10 +377,7 @@ class View:
         place = self._places[start]
         mentioned = [kind for kind in self._kinds if kind in _PEOPLE]
         nobody = {"bias", "nobody", f"nobody:{len(mentioned)}", *(f"nobody:{kind}" for kind in mentioned)}
-        return [
-            nobody if mention is None else _between(self._tokens, place, self._places[mention.start])
-            for mention in candidates
-        ]
+        return [nobody if m is None else _between(self._tokens, place, self._places[m.start]) for m in candidates]
 
 
 def _first(none: int, places: Sequence[int], speaks: Callable[[int], float]) -> int:
@@ -416,38 +404,34 @@ def _placeholder(plain: str, mention: Mention) -> str:
 
 def _between(tokens: Sequence[Token], figure: int, mention: int) -> set[str]:
     """The features of a figure and a mention as a pair."""
-    low, high = min(figure, mention), max(figure, mention)
-    inside = [token.word for token in tokens[low + 1 : high]]
-    side = "behind" if mention > figure else "before"
-    kind = f"kind:{side}{tokens[mention].word}"
-    figures = sum(word in ("@rate", "@number", "@power", "@ratio") for word in inside)
+    behind = mention > figure
+    inside = [token.word for token in tokens[min(figure, mention) + 1 : max(figure, mention)]]
     alike = sum(word == tokens[figure].word for word in inside)
-    people = sum(word in _PEOPLE for word in inside)
+    crowd = f"{alike}:{sum(word in _PEOPLE for word in inside)}"
     marks = "".join(word for word in inside if word in _CLAUSE_MARKS)[:3]
-    distance = min(len(inside), _FAR)
-    found = {
-        "bias", kind, f"{kind}:{figures}", f"{kind}:{alike}:{people}", f"{kind}:{alike}:{people}:{marks}",
-        f"{kind}:{marks}", f"{kind}:d{distance}", f"{kind}:{alike}:{people}:d{distance}",
-    }  # fmt: skip
+    distance = f"d{min(len(inside), _FAR)}"
+
+    def said(place: int) -> str:
+        return tokens[place].word if 0 <= place < len(tokens) else "end"
+
+    outer, after = f"outer {said(mention + 1 if behind else mention - 1)}", f"after {said(figure + 1)}"
+    starts = f"starts {next((t.word for t in tokens if t.word[0] == '@' and t.word != '@power'), '')}"
+    seen = [
+        sum(word in ("@rate", "@number", "@power", "@ratio") for word in inside), marks, distance, crowd, outer, after,
+        starts, f"ahead {said(figure - 1)}",
+        *(f"{crowd}:{each}" for each in (marks, distance, outer, after, starts)),
+        *(f"in {each}" for each in inside[:6]),
+    ]  # fmt: skip
     if len(inside) <= 4:
-        found.add(f"{kind}:all {' '.join(inside)}")
-    found.update(f"{kind}:in {word}" for word in inside[:6])
+        seen.append(f"all {' '.join(inside)}")
     if inside:
-        found |= {f"{kind}:near {inside[-1] if mention > figure else inside[0]}"}
-        found |= {f"{kind}:at {inside[0] if mention > figure else inside[-1]}"}
-    beyond = mention + 1 if mention > figure else mention - 1
-    outer = tokens[beyond].word if 0 <= beyond < len(tokens) else "end"
-    found |= {f"{kind}:outer {outer}", f"{kind}:{alike}:{people}:outer {outer}"}
-    after = tokens[figure + 1].word if figure + 1 < len(tokens) else "end"
-    before = tokens[figure - 1].word if figure else "end"
-    found |= {f"{kind}:after {after}", f"{kind}:ahead {before}", f"{kind}:{alike}:{people}:after {after}"}
+        at, near = (inside[0], inside[-1]) if behind else (inside[-1], inside[0])
+        seen += [f"near {near}", f"at {at}"]
     for name, place in (("m", mention), ("f", figure)):
-        for step in (-3, -2, -1, 1, 2, 3):
-            if 0 <= place + step < len(tokens):
-                found.add(f"{kind}:{name}{step // abs(step)} {tokens[place + step].word}")
-    nearest = next((word for word in (t.word for t in tokens) if word[0] == "@" and word != "@power"), "")
-    found |= {f"{kind}:starts {nearest}", f"{kind}:{alike}:{people}:starts {nearest}"}
-    return found
+        steps = (step for step in (-3, -2, -1, 1, 2, 3) if 0 <= place + step < len(tokens))
+        seen += [f"{name}{step // abs(step)} {said(place + step)}" for step in steps]
+    kind = f"kind:{'behind' if behind else 'before'}{tokens[mention].word}"
+    return {"bias", kind, *(f"{kind}:{each}" for each in seen)}
 
 
 _CLAUSE_MARKS = frozenset(",;:.，。；：、!?！？")

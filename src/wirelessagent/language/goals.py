@@ -8,7 +8,7 @@ and says why.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
@@ -21,7 +21,6 @@ _WHOLE_PREDICATE = 3  # "不在乎", "dont care about": words enough to stand be
 _REACH_BEFORE, _REACH_AFTER, _REACH_OF_NOT, _REACH_TO_TURN = 4, 3, 6, 2
 
 _DIRECTIONS = ("up", "down", "want", "keep", "waste", "bad")
-_OBJECTS = ("rate", "stream", "power", "battery", "efficiency", "worst")
 _OPPOSITES = {
     "max_rate": "less_rate", "min_power": "more_power", "max_energy_efficiency": "less_efficiency",
     "proportional_fairness": "less_fairness", "max_min_rate": "less_fairness",
@@ -31,44 +30,34 @@ _TURNED_FROM_BEHIND = ("max_energy_efficiency", "proportional_fairness", "max_mi
 _DENYING = ("not", "isnt", "undo")
 _SPOILERS = (*_DENYING, "not_after", "bad", "down", "waste", "over", "join")
 
-# What a direction and its object mean together, and how much that weighs.
-_PAIRS: dict[tuple[str, str], tuple[str, float]] = {
-    ("up", "rate"): ("max_rate", 1.0),
-    ("want", "rate"): ("max_rate", 0.8),
-    ("keep", "rate"): ("max_rate", 0.8),
-    ("down", "rate"): ("less_rate", 1.0),
-    ("up", "stream"): ("max_rate", 0.7),
-    ("down", "power"): ("min_power", 1.0),
-    ("keep", "power"): ("min_power", 0.8),
-    ("waste", "power"): ("waste_power", 1.0),
-    ("up", "power"): ("more_power", 1.0),
-    ("up", "battery"): ("min_power", 0.8),
-    ("down", "battery"): ("min_power", 1.0),
-    ("want", "battery"): ("min_power", 0.8),
-    ("keep", "battery"): ("min_power", 0.8),
-    ("waste", "battery"): ("waste_power", 1.0),
-    ("up", "efficiency"): ("max_energy_efficiency", 0.7),
-    ("want", "efficiency"): ("max_energy_efficiency", 0.7),
-    ("down", "efficiency"): ("less_efficiency", 1.0),
-    ("up", "worst"): ("max_min_rate", 1.0),
-    ("want", "worst"): ("max_min_rate", 0.8),
-    ("down", "worst"): ("less_rate", 1.0),
-    ("bad", "worst"): ("less_rate", 1.0),
-    # Below what is enough: said of a fault as often as of a wish, so that it is asked about.
-    ("bad", "rate"): ("less_rate", 0.5),
-    ("bad", "power"): ("more_power", 0.5),
-    ("bad", "battery"): ("more_power", 0.5),
-    ("bad", "efficiency"): ("less_efficiency", 1.0),
-}
+# What an object means by itself ("") and with each direction, and how much that weighs. What weighs 0.5 is below what
+# is enough: said of a fault as often as of a wish, so that it is asked about.
+_MEANT: Mapping[str, Mapping[str, tuple[str, float]]] = {
+    "rate": {
+        "": ("max_rate", 0.4), "up": ("max_rate", 1.0), "want": ("max_rate", 0.8), "keep": ("max_rate", 0.8),
+        "down": ("less_rate", 1.0), "bad": ("less_rate", 0.5),
+    },
+    "stream": {"up": ("max_rate", 0.7)},
+    "power": {
+        "down": ("min_power", 1.0), "keep": ("min_power", 0.8), "up": ("more_power", 1.0), "bad": ("more_power", 0.5),
+        "waste": ("waste_power", 1.0),
+    },
+    "battery": {
+        "": ("min_power", 0.4), "up": ("min_power", 0.8), "down": ("min_power", 1.0), "want": ("min_power", 0.8),
+        "keep": ("min_power", 0.8), "bad": ("more_power", 0.5), "waste": ("waste_power", 1.0),
+    },
+    "efficiency": {
+        "": ("max_energy_efficiency", 0.4), "up": ("max_energy_efficiency", 0.7),
+        "want": ("max_energy_efficiency", 0.7), "down": ("less_efficiency", 1.0), "bad": ("less_efficiency", 1.0),
+    },
+    "worst": {
+        "": ("max_min_rate", 0.4), "up": ("max_min_rate", 1.0), "want": ("max_min_rate", 0.8),
+        "down": ("less_rate", 1.0), "bad": ("less_rate", 1.0),
+    },
+}  # fmt: skip
 _CONTRASTED = 0.8
 # Readings that yield to a nearer or plainer one: "save as much power as you can" asks for less of it.
 _VAGUE = {("want", "rate"): 1.5, ("want", "battery"): 1.5, ("want", "efficiency"): 1.5, ("up", "power"): 3.0}
-_ALONE: dict[str, tuple[str, float]] = {
-    "rate": ("max_rate", 0.4),
-    "battery": ("min_power", 0.4),
-    "efficiency": ("max_energy_efficiency", 0.4),
-    "worst": ("max_min_rate", 0.4),
-}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,7 +95,7 @@ class Goal:
 
 def goal_of(found: Sequence[Found]) -> Goal:
     """The goal that the terms of a sentence make together."""
-    signals = _balanced(_negate(_for_the_worst(_signals(found), found), found), found)
+    signals = _balanced(_negate([_for_the_worst(signal, found) for signal in _signals(found)], found), found)
     wished, negated = [s for s in signals if not s.negated], {s.objective for s in signals if s.negated}
     positive: dict[str, float] = {}
     for signal in wished:
@@ -122,7 +111,7 @@ def goal_of(found: Sequence[Found]) -> Goal:
         return _contrasted(signals) or _unclear(positive, negated)
     if strong[0] != "max_min_rate" and "max_min_rate" in positive:
         return Goal(verdict="contradiction", options=(strong[0], "max_min_rate"), spans=spans)
-    if _joined_with_another(wished, own, found):
+    if _is_joined(wished, own, found):
         return Goal(verdict="contradiction", options=tuple(positive), spans=spans)
     slips, best = any(s.corrected for s in own), max(s.weight for s in own)
     others = sum(weight for name, weight in positive.items() if name != strong[0])
@@ -130,9 +119,18 @@ def goal_of(found: Sequence[Found]) -> Goal:
     return Goal(verdict="clear", objective=strong[0], options=tuple(strong), spans=spans, confidence=confidence)
 
 
-def _joined_with_another(wished: Sequence[Signal], own: Sequence[Signal], found: Sequence[Found]) -> bool:
+def _of(found: Sequence[Found], *concepts: str) -> list[Found]:
+    return [item for item in found if item.concept in concepts]
+
+
+def _beside(item: Found | Signal, found: Sequence[Found], *concepts: str) -> Found | None:
+    """The first term of some concepts in the clause of ``item``."""
+    return next((other for other in _of(found, *concepts) if other.clause == item.clause), None)
+
+
+def _is_joined(wished: Sequence[Signal], own: Sequence[Signal], found: Sequence[Found]) -> bool:
     """Whether an "and" ties the clear wish to a bare word for another one: "battery saving and speed"."""
-    joins = {item.first for item in found if item.term.concept == "join"}
+    joins = {item.first for item in _of(found, "join")}
     return any(
         (a.last in joins and b.first == a.last + 1) or (b.last in joins and a.first == b.last + 1)
         for a in own
@@ -153,84 +151,64 @@ def _contrasted(signals: Sequence[Signal]) -> Goal | None:
 
 
 def _unclear(positive: dict[str, float], negated: set[str]) -> Goal:
-    served = [name for name in positive if name not in _UNSERVED]
     if negated:
         return Goal(verdict="negated", options=tuple(sorted(negated)))
+    served = [name for name in positive if name not in _UNSERVED]
     if served:
         best = max(served, key=lambda name: positive[name])
         return Goal(verdict="weak", objective=best, options=(best,))
-    opposed = [name for name in positive if name in _UNSERVED]
-    return Goal(verdict="opposite" if opposed else "none", options=tuple(opposed))
+    return Goal(verdict="opposite" if positive else "none", options=tuple(positive))
 
 
-def _signals(found: Sequence[Found]) -> list[Signal]:
+def _signals(found: Sequence[Found]) -> Iterator[Signal]:
     pairs = _pair(found)
-    signals: list[Signal] = []
     for item in found:
-        if item.term.concept == "direct":
+        if item.concept == "direct":
             turned = _turned_round(item, found, pairs)
             meant = item.term.objective if turned is None else _OPPOSITES[item.term.objective]
-            signals.append(_signal(turned or item, item, meant, item.term.weight))
-        elif item.term.concept in _OBJECTS:
+            yield _signal(turned or item, item, meant, item.term.weight)
+        elif item.concept in _MEANT:
             direction = pairs.get(item.first)
-            meaning = None if direction is None else _PAIRS.get((direction.term.concept, item.term.concept))
+            meaning = _MEANT[item.concept].get("" if direction is None else direction.concept)
             if meaning is not None and meaning[0] == "waste_power" and _beside(item, found, "down") is not None:
-                meaning = _PAIRS["down", "power"]  # "reduce the wasted power"
-            if direction is not None and meaning is not None:
-                signals.append(_signal(direction, item, *meaning))
-            elif item.term.concept in _ALONE:
-                signals.append(_signal(item, item, *_ALONE[item.term.concept]))
-        elif item.term.concept == "fairly" and _of_sharing(item, found):
-            signals.append(_signal(item, item, "proportional_fairness", 1.0))
-        elif item.term.concept == "same":
+                meaning = _MEANT["power"]["down"]  # "reduce the wasted power"
+            if meaning is not None:
+                yield _signal(direction or item, item, *meaning)
+        elif item.concept == "fairly" and _is_of_sharing(item, found):
+            yield _signal(item, item, "proportional_fairness", 1.0)
+        elif item.concept == "same":
             everyone = _beside(item, found, "everyone")
-            signals += [_signal(item, everyone, "max_min_rate", 1.0)] if everyone is not None else []
-    return signals
+            if everyone is not None:
+                yield _signal(item, everyone, "max_min_rate", 1.0)
 
 
-def _of_sharing(item: Found, found: Sequence[Found]) -> bool:
+def _is_of_sharing(item: Found, found: Sequence[Found]) -> bool:
     """Whether "fairly" says how to share rates: "share it fairly", not "fairly fast" nor "share the power fairly"."""
     share = _beside(item, found, "share")
-    if share is None:
+    if share is None or any(other.first == item.last for other in _of(found, "up", "down", "bad", "direct")):
         return False
-    degree = any(other.first == item.last and other.term.concept in ("up", "down", "bad", "direct") for other in found)
-    power = any(
-        other.term.concept in ("power", "battery") and 0 <= other.first - share.last <= _REACH_TO_TURN
-        for other in found
-    )
-    return not degree and not power
+    return not any(0 <= other.first - share.last <= _REACH_TO_TURN for other in _of(found, "power", "battery"))
 
 
-def _beside(item: Found | Signal, found: Sequence[Found], concept: str) -> Found | None:
-    """The first term of a concept in the clause of ``item``."""
-    return next((other for other in found if other.term.concept == concept and other.clause == item.clause), None)
-
-
-def _for_the_worst(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
-    """Wishes for rate that stand beside the slowest user, and nothing that may turn them round, are for that user."""
-    result: list[Signal] = []
-    for signal in signals:
-        user = _beside(signal, found, "worst")
-        if signal.objective == "max_rate" and user is not None:
-            gap = max(user.first - signal.last, signal.first - user.last, 0)
-            spoilt = any(other.term.concept in _SPOILERS and other.clause == signal.clause for other in found)
-            signal = replace(signal, objective="max_min_rate") if gap <= _REACH_AFTER and not spoilt else signal
-        result.append(signal)
-    return result
+def _for_the_worst(signal: Signal, found: Sequence[Found]) -> Signal:
+    """A wish for rate that stands beside the slowest user, and nothing that may turn it round, is for that user."""
+    user = _beside(signal, found, "worst")
+    if signal.objective != "max_rate" or user is None or _beside(signal, found, *_SPOILERS) is not None:
+        return signal
+    gap = max(user.first - signal.last, signal.first - user.last)
+    return replace(signal, objective="max_min_rate") if gap <= _REACH_AFTER else signal
 
 
 def _turned_round(item: Found, found: Sequence[Found], pairs: Mapping[int, Found]) -> Found | None:
     """The word that makes a term the opposite of its wish: "lowest energy efficiency", "more buffering"."""
     if item.term.objective not in _OPPOSITES:
         return None
-    turning = ("up", "want") if item.term.complaint else ("down", "bad")
     spoken_for = {direction.first for direction in pairs.values()}
-    for word in found:
-        free = word.term.concept in turning and word.clause == item.clause and word.first not in spoken_for
+    for word in _of(found, *(("up", "want") if item.term.complaint else ("down", "bad"))):
         before = word.last <= item.first
         gap = item.first - word.last if before else word.first - item.last
         sided = before or (not item.term.complaint and item.term.objective in _TURNED_FROM_BEHIND)
-        if free and sided and gap <= _REACH_TO_TURN:
+        if word.clause == item.clause and word.first not in spoken_for and sided and gap <= _REACH_TO_TURN:
             return word
     return None
 
@@ -247,17 +225,14 @@ def _pair(found: Sequence[Found]) -> dict[int, Found]:
     """The direction of each object, by the object's first unit: the nearest in its clause, before rather than after."""
     candidates: list[tuple[float, Found, Found]] = []
     for place, item in enumerate(found):
-        if item.term.concept not in _OBJECTS:
-            continue
+        meant = _MEANT.get(item.concept, {})
         for direction in found[max(0, place - _REACH_BEFORE - 1) : place + _REACH_AFTER + 2]:
-            if direction.term.concept not in _DIRECTIONS or direction.clause != item.clause:
-                continue
             before = direction.last <= item.first
             gap = item.first - direction.last if before else direction.first - item.last
-            reach = 1 if item.term.concept == "stream" else _REACH_BEFORE if before else _REACH_AFTER
-            means = (direction.term.concept, item.term.concept) in _PAIRS
-            if means and gap <= reach and not _blocked(found, direction, item):
-                cost = gap + (0.0 if before else 0.5) + _VAGUE.get((direction.term.concept, item.term.concept), 0.0)
+            reach = 1 if item.concept == "stream" else _REACH_BEFORE if before else _REACH_AFTER
+            able = direction.concept in meant and direction.clause == item.clause and gap <= reach
+            if able and not _is_blocked(found, direction, item):
+                cost = gap + (0.0 if before else 0.5) + _VAGUE.get((direction.concept, item.concept), 0.0)
                 candidates.append((cost, item, direction))
     chosen: dict[int, Found] = {}
     taken: set[int] = set()
@@ -269,91 +244,81 @@ def _pair(found: Sequence[Found]) -> dict[int, Found]:
     return chosen
 
 
-def _blocked(found: Sequence[Found], direction: Found, item: Found) -> bool:
+def _is_blocked(found: Sequence[Found], direction: Found, item: Found) -> bool:
     """Whether another object stands between the two, unless "and" or "or" joins it to this one."""
     low, high = min(direction.last, item.last), max(direction.first, item.first)
     between = [other for other in found if low <= other.first < high and other is not item and other is not direction]
-    stated = direction.term.concept == "up" and direction.first >= item.last
-    if stated and any(other.term.concept == "question" for other in between):
+    if direction.concept == "up" and direction.first >= item.last and _of(between, "question"):
         return True  # "the speed is good" says how it is
-    objects = [other for other in between if other.term.concept in _OBJECTS or other.term.concept == "direct"]
-    joined = any(other.term.concept == "join" for other in between)
-    return bool(objects) and not joined
+    return bool(_of(between, *_MEANT, "direct")) and not _of(between, "join")
 
 
-def _negate(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
+def _negate(signals: Sequence[Signal], found: Sequence[Found]) -> list[Signal]:
     """Signals with those turned off that a negation refers to; a negated wish for less rate is one for rate."""
     turned_off: set[int] = set()
-    first = min((item.start for item in found if item.term.concept in _DENYING), default=0)
-    named = [item for item in found if item.term.concept in (*_OBJECTS, "direct", "same", "fairly")]
-    joins = [item.first for item in found if item.term.concept == "join"]
-    for item in found:
-        same = [other for other in named if other.clause == item.clause]
+    joins = [item.first for item in _of(found, "join")]
+    for item in _of(found, *_DENYING, "over", "not_after"):
+        same = [other for other in _of(found, *_MEANT, "direct", "same", "fairly") if other.clause == item.clause]
         behind = [other for other in same if item.first - _REACH_OF_NOT <= other.first < item.first]
-        if item.term.concept in _DENYING or (item.term.concept == "over" and _prefers(found, item)):
+        if item.concept in _DENYING or (item.concept == "over" and _prefers(found, item)):
             ahead = [other for other in same if item.last <= other.first < item.last + _REACH_OF_NOT]
             turned_off.update(other.first for other in _with_joined(ahead, joins))
             if not ahead and _is_predicate(item, found):
                 turned_off.update(other.first for other in behind[-1:])
-        elif item.term.concept == "not_after":
+        elif item.concept == "not_after":
             turned_off.update(other.first for other in behind[-1:])
     result: list[Signal] = []
+    denied = min((item.start for item in _of(found, *_DENYING)), default=0)
     for signal in signals:
         hit = any(signal.first <= place < signal.last for place in turned_off)
-        if hit and signal.objective in _UNSERVED:
-            if signal.objective in ("less_rate", "waste_power"):
-                wish = "max_rate" if signal.objective == "less_rate" else "min_power"
-                start = min(first, signal.start)  # "don't waste power": the negation is a part of the wish
-                result.append(replace(signal, objective=wish, weight=0.8, start=start))
-            continue
-        result.append(replace(signal, negated=hit))
+        wish = {"less_rate": "max_rate", "waste_power": "min_power"}.get(signal.objective)
+        if not hit or signal.objective not in _UNSERVED:
+            result.append(replace(signal, negated=hit))
+        elif wish is not None:  # "don't waste power": the negation is a part of the wish
+            result.append(replace(signal, objective=wish, weight=0.8, start=min(denied, signal.start)))
     return result
 
 
 def _is_predicate(negation: Found, found: Sequence[Found]) -> bool:
     """Whether a negation says something of what stands before it: "power saving is not the goal", "公平我不在乎"."""
-    is_not = any(item.term.concept == "question" and item.last == negation.first for item in found)
+    if negation.concept != "not":
+        return negation.concept == "isnt"
     directed = any(
-        item.term.concept in _DIRECTIONS and item.clause == negation.clause and 0 <= item.first - negation.last <= 1
-        for item in found
+        item.clause == negation.clause and 0 <= item.first - negation.last <= 1 for item in _of(found, *_DIRECTIONS)
     )
-    whole = negation.term.concept == "not" and negation.last - negation.first >= _WHOLE_PREDICATE
-    return negation.term.concept == "isnt" or whole or (negation.term.concept == "not" and (is_not or directed))
+    whole = negation.last - negation.first >= _WHOLE_PREDICATE
+    return whole or directed or any(item.last == negation.first for item in _of(found, "question"))
 
 
 def _prefers(found: Sequence[Found], over: Found) -> bool:
     """Whether "over" ranks wishes, as in "prefer speed over battery life"."""
-    return any(item.term.concept == "want" and item.clause == over.clause and item.first < over.first for item in found)
+    return any(item.clause == over.clause and item.first < over.first for item in _of(found, "want"))
 
 
 def _with_joined(ahead: Sequence[Found], joins: Sequence[int]) -> list[Found]:
     """The first of the things named, and those that stand right beside it after an "and" or an "or"."""
     reached = list(ahead[:1])
     for other in ahead[1:]:
-        if other.first - reached[-1].last == 1 and reached[-1].last in joins:
-            reached.append(other)
-        else:
+        if other.first - reached[-1].last != 1 or reached[-1].last not in joins:
             break
+        reached.append(other)
     return reached
 
 
 def _balanced(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
     """With a word of balance between rate and power, both wishes become one for energy efficiency."""
-    words = [item for item in found if item.term.concept == "balance"]
-    both = [item for item in found if item.term.concept == "both"]
-    paired = [item for item in found if item.term.concept == "paired"]
+    words, paired = _of(found, "balance"), _of(found, "paired")
     wishes = {signal.objective for signal in signals if not signal.negated}
     if not words and wishes >= {"max_rate", "min_power"}:
-        words = both or (paired if len(paired) > 1 else [])
-    concepts = {item.term.concept for item in found}
-    for_rate = concepts & {"rate", "stream", "performance"} or "max_rate" in wishes
-    for_power = concepts & {"power", "battery"} or "min_power" in wishes
-    if any(signal.negated for signal in signals):
+        words = _of(found, "both") or (paired if len(paired) > 1 else [])
+    for_rate = _of(found, "rate", "stream", "performance") or "max_rate" in wishes
+    for_power = _of(found, "power", "battery") or "min_power" in wishes
+    if not words or not for_rate or any(signal.negated for signal in signals):
         return signals
-    if words and for_rate and not for_power and "proportional_fairness" in wishes:  # "a balance of speed and fairness"
-        kept = [s for s in signals if s.objective not in ("max_rate", *_UNSERVED)]
-        return [*kept, _signal(words[0], words[-1], "proportional_fairness", 1.5)]
-    if not words or not for_rate or not for_power:
+    if for_power:
+        gone, goal = ("max_rate", "min_power", *_UNSERVED), "max_energy_efficiency"
+    elif "proportional_fairness" in wishes:  # "a balance of speed and fairness"
+        gone, goal = ("max_rate", *_UNSERVED), "proportional_fairness"
+    else:
         return signals
-    kept = [s for s in signals if s.objective not in ("max_rate", "min_power", *_UNSERVED)]
-    return [*kept, _signal(words[0], words[-1], "max_energy_efficiency", 1.5)]
+    return [*(s for s in signals if s.objective not in gone), _signal(words[0], words[-1], goal, 1.5)]

@@ -10,7 +10,6 @@ says what was read of it, which the network judges, too.
 
 from __future__ import annotations
 
-import dataclasses
 import re
 from typing import TYPE_CHECKING
 
@@ -64,7 +63,7 @@ def asking_whether(intent: Intent, voice: Voice, doubt: str | None = None) -> In
     guess = intent.reply.rstrip(" .。")
     key = "do_you_mean" if doubt is None else "mood" if doubt else "no_order"
     reply = voice.say(key, text=doubt or "", guess=guess[:1].lower() + guess[1:])
-    return dataclasses.replace(_asking(intent, reply), guess=intent)
+    return _asking(intent, reply, guess=intent)
 
 
 def doubted(text: str, context: Context | None, intent: Intent) -> Span | None:
@@ -97,10 +96,10 @@ def is_bent(text: str, context: Context | None, intent: Intent) -> bool:
     return judged and sentence.fidelity < _FAITHFUL
 
 
-def _asking(intent: Intent, reply: str) -> Intent:
+def _asking(intent: Intent, reply: str, guess: Intent | None = None) -> Intent:
     return Intent(
         kind="clarify", objective=None, constraints={}, language=intent.language, confidence=intent.confidence,
-        evidence={}, reply=reply, recogniser=intent.recogniser,
+        evidence={}, reply=reply, recogniser=intent.recogniser, guess=guess,
     )  # fmt: skip
 
 

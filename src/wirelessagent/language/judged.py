@@ -16,11 +16,10 @@ import itertools
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from decimal import Decimal
 from typing import TypeVar
 
-from wirelessagent.language.figure_roles import SCALED, View, answers, likely, shipped_roles
+from wirelessagent.language.figure_roles import SCALED, Look, answers, likely, shipped_roles
 from wirelessagent.language.mentions import BY_PLACE, JOINT, LISTED, Mention, mentions, merged
 from wirelessagent.language.moods import named_in
 from wirelessagent.language.number_words import listed
@@ -47,30 +46,6 @@ _ONE = Phrases(  # "the others only one", against "one user"
 )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Look:
-    """What a sentence holds: figures with a unit, everybody mentioned, the numbers that are neither.
-
-    ``ones`` are words such as "one", which are figures or nothing; ``unread`` bounds whose unit nobody knows.
-    """
-
-    plain: str
-    quantities: Sequence[Quantity]
-    figures: list[Quantity]
-    unread: list[Quantity]
-    mentions: list[Mention]
-    loose: list[Number]
-    ones: list[Number]
-
-    def view(self) -> View:
-        return View(self.plain, self.figures, self.mentions, self.loose, self.ones)
-
-    def bound(self, number: Number) -> str:
-        """How a number is bounded: "at_most", "None" without a comparator, "" where it is nothing but a number."""
-        found = [str(q.comparator) for q in self.quantities if q.start <= number.start < q.end]
-        return found[0] if found else ""
-
-
 def first_look(
     plain: str, quantities: Sequence[Quantity], names: Sequence[str] = (), taken: Sequence[Span] = ()
 ) -> Look:
@@ -87,12 +62,6 @@ def first_look(
     return Look(
         plain=plain, quantities=quantities, figures=stated, unread=unread, mentions=found, loose=loose, ones=alone
     )
-
-
-def with_strangers(look: Look, names: Sequence[Span]) -> Look:
-    """The same with those among the users mentioned who are called by ``names`` that nobody is known by."""
-    found = _with_named(look, ((look.plain[start:end], (start, end)) for start, end in names))
-    return dataclasses.replace(look, mentions=found)
 
 
 def second_look(look: Look, users: Sequence[Number], roles: Mapping[Number, str]) -> Look:
@@ -248,7 +217,8 @@ class Judged:
         view = first.view()
         self.strangers = _without_known(plain, view.strangers())
         if self.strangers:
-            first = with_strangers(first, self.strangers)
+            called = _with_named(first, ((plain[slice(*span)], span) for span in self.strangers))
+            first = dataclasses.replace(first, mentions=called)
             view = first.view()
         chances: _Roles = {
             number: answers("number", view.number(number, first.bound(number)))
@@ -267,12 +237,15 @@ class Judged:
         alone = ones(plain, [*taken, *((each.start, each.end) for each in read)]) if able else ()
         users = _users(plain, able, [number for number in alone if number.value == 1], chances)
         look = second_look(first, users, _borrowing(first, chances, [*users, *weighing]) | dict.fromkeys(rates, "rate"))
-        self._look, self._view = look, view if look is first else look.view()
+        self._look, self.view = look, view if look is first else look.view()
         self.mentions = look.mentions
         self.figures = sorted([*look.figures, *look.unread], key=lambda figure: figure.start)
-        self.doubtful = [(n.start, n.end) for n in _doubtful(first, look, chances)]
+        starts = {figure.start for figure in look.figures}
+        perhaps = [n for n in first.ones if chances[n]["rate"] + chances[n]["power"] > _PERHAPS]
+        self.doubtful = [(n.start, n.end) for n in perhaps if n.start not in starts]
         self.weights = [n for n in look.loose if n in weighing or _weighs(plain, n, chances[n])]
-        self.multiplied = [n for n in look.loose if n.form == "times" and _multiplies(look, n)]
+        multiplying = (n for n in look.loose if n.form == "times")
+        self.multiplied = [n for n in multiplying if any(plain[n.end : start].isspace() for start in starts)]
         self.groups = [n for n in look.loose if n.value is not None and chances[n]["group"] > _SURE_OF_A_GROUP]
         unread = [number for number in plausible if number in look.loose]
         together = {len(mention.users) for mention in look.mentions if len(mention.users) > 1}
@@ -290,21 +263,17 @@ class Judged:
         ]
         self.lists = [[item.start for item in each] for each in lists if len(each) > 1]
         self._said: dict[Mention, Mapping[str, float]] = {}
-        self._owners = {figure.start: self._owners_of(figure.start) for figure in look.figures if figure.kind == "rate"}
-        self._owners |= {number.start: self._owners_of(number.start) for number in self.weights}
+        owned = (*(figure for figure in look.figures if figure.kind == "rate"), *self.weights)
+        self._owners = {item.start: self._owners_of(item.start) for item in owned}
         self._means = self._meanings()
-        self._owned = [(chances, 1.0) for chances in self._owners.values()]
-        self._owned += [
-            (self._owners_of(number.start), chances[number]["weight"])
-            for number in look.loose
-            if number not in self.weights and chances[number]["weight"] > _PERHAPS
-        ]
+        weighty = [n for n in look.loose if n not in self.weights and chances[n]["weight"] > _PERHAPS]
+        self._owned = [(each, 1.0) for each in self._owners.values()]
+        self._owned += [(self._owners_of(n.start), chances[n]["weight"]) for n in weighty]
 
     def _owners_of(self, start: int) -> Mapping[Mention | None, float]:
         everyone = [*self.mentions, None]
-        model = shipped_roles()
-        scores = [model.scores("link", features)[0] for features in self._view.owners(start, everyone)]
-        return likely(scores, everyone)
+        seen = self.view.owners(start, everyone)
+        return likely([shipped_roles().scores("link", features)[0] for features in seen], everyone)
 
     def figure(self, index: int) -> Mapping[str, float]:
         """How likely a power, a rate or a ratio has each role."""
@@ -320,7 +289,7 @@ class Judged:
         means: dict[int, Mapping[str, float]] = {}
         carriers = CARRIERS.search(self._look.plain) is not None
         for place, figure in enumerate(self._look.figures):
-            chances = answers(figure.kind, self._view.figure(place))
+            chances = answers(figure.kind, self.view.figure(place))
             means[figure.start] = _as_bounded(figure, chances, carriers=carriers)
         for starts in self.lists:
             each = [means[start] for start in starts if start in means]
@@ -333,29 +302,22 @@ class Judged:
     def said_of(self, mention: Mention) -> Mapping[str, float]:
         """How likely somebody named has each role, by the words alone."""
         if mention not in self._said:
-            self._said[mention] = answers("user", self._view.user(mention))
+            self._said[mention] = answers("user", self.view.user(mention))
         return self._said[mention]
 
     def user(self, mention: Mention) -> Mapping[str, float]:
-        """The same by the words, and by what is theirs."""
-        owning, by_words = self._owning(mention), self.said_of(mention)
+        """The same by the words, and by how likely some rate or weight is theirs."""
+        by_words = self.said_of(mention)
         if self._look.unread:  # a figure that may be theirs
             return by_words
+        same = [other for other in self.mentions if other == mention or not set(other.users).isdisjoint(mention.users)]
+        owning = 1 - math.prod(1 - sure * sum(chances[other] for other in same) for chances, sure in self._owned)
         joint = {
             role: chance * (owns * owning / _OWN + (1 - owns) * (1 - owning) / (1 - _OWN))
             for role, chance in by_words.items()
             for owns in [_OWNS.get(role, _OWNS_ELSE)]
         }
         return _shares(joint)
-
-    def telling(self, mention: Mention, role: str) -> tuple[int, int]:
-        """The span of somebody named and of the words beside that say what they are there for."""
-        return self._view.telling(mention, role)
-
-    def _owning(self, mention: Mention) -> float:
-        """How likely some rate or weight is meant for somebody mentioned."""
-        same = [other for other in self.mentions if other == mention or not set(other.users).isdisjoint(mention.users)]
-        return 1 - math.prod(1 - sure * sum(chances[other] for other in same) for chances, sure in self._owned)
 
     def owners(self, start: int, candidates: Sequence[Mention]) -> Mapping[Mention | None, float]:
         """How likely the figure at ``start`` is for each of the candidates, or, as None, for everybody."""
@@ -386,7 +348,7 @@ def _as_bounded(figure: Quantity, chances: Mapping[str, float], *, carriers: boo
 
 def _moved(chances: Mapping[str, float], roles: Sequence[str], to: str) -> Mapping[str, float]:
     """Chances in which those of some roles are all of one."""
-    total = sum(chances[role] for role in {*roles, to})
+    total = sum(chances[role] for role in dict.fromkeys((*roles, to)))
     return {**chances, **dict.fromkeys(roles, 0.0), to: total}
 
 
@@ -413,17 +375,12 @@ def _runs(plain: str, items: Sequence[_Item], joint: re.Pattern[str]) -> list[li
     runs: list[list[_Item]] = []
     for item in items:
         last = runs[-1][-1] if runs else item
-        if runs and not _is_range(last, item) and joint.fullmatch(plain, last.end, item.start):
+        bounds = [each.comparator for each in (last, item) if isinstance(each, Quantity)]
+        if runs and bounds != ["at_least", "at_most"] and joint.fullmatch(plain, last.end, item.start):
             runs[-1].append(item)
         else:
             runs.append([item])
     return runs
-
-
-def _is_range(one: Quantity | Number, other: Quantity | Number) -> bool:
-    if isinstance(one, Number) or isinstance(other, Number):
-        return False
-    return (one.comparator, other.comparator) == ("at_least", "at_most")
 
 
 def _no_limits(look: Look, weighing: Sequence[Number]) -> list[Number]:
@@ -446,18 +403,6 @@ def _is_surely_a_user(look: Look, number: Number, chances: _Roles) -> bool:
     measured = any(figure.start - 1 <= number.end and number.start < figure.end for figure in digits)
     scaled = SCALED.match(look.plain, number.end) is not None
     return chances[number]["user"] > _CERTAIN_OF_A_USER and not measured and not scaled
-
-
-def _multiplies(look: Look, number: Number) -> bool:
-    """Whether a figure follows right behind a word that multiplies."""
-    return any(look.plain[number.end : figure.start].isspace() for figure in look.figures)
-
-
-def _doubtful(first: Look, look: Look, chances: _Roles) -> list[Number]:
-    """The words such as "one" that may be figures and may be nothing; ``look`` is the second."""
-    figures = {figure.start for figure in look.figures}
-    able = [number for number in first.ones if number.start not in figures]
-    return [number for number in able if chances[number]["rate"] + chances[number]["power"] > _PERHAPS]
 
 
 def _borrowing(look: Look, roles: _Roles, users: Sequence[Number]) -> dict[Number, str]:
@@ -502,13 +447,11 @@ def _weighing_lists(look: Look, chances: _Roles) -> list[Number]:
     """The numbers of lists as long as a list of users, of which one surely says how much somebody counts."""
     plain, lengths = look.plain, {len(mention.users) for mention in look.mentions}
     able = [n for n in look.loose if n.value is not None and 0 <= n.value < _MOST_WEIGHT and n.form != "times"]
+    lists = [each for each in _runs(plain, able, _ITEMS) if len(each) > 1 and len(each) in lengths]
     return [
-        number
-        for each in _runs(plain, able, _ITEMS)
-        if len(each) > 1 and len(each) in lengths
+        number for each in lists for number in each
         if _WEIGHTS.search(plain, 0, each[0].start) or any(_weighs(plain, n, chances[n]) for n in each)
-        for number in each
-    ]
+    ]  # fmt: skip
 
 
 def _rates_of_lists(look: Look, chances: _Roles) -> list[Number]:

@@ -53,16 +53,6 @@ def without(words: Sequence[str], plain: str) -> str:
     return "".join(sign for at, sign in enumerate(plain) if not any(start <= at < end for start, end in gone))
 
 
-@functools.cache
-def _stems(language: str) -> Sequence[tuple[str, Sequence[tuple[str, str]]]]:
-    """A language's classes with how far they reach, and each word with the part of it that is always written so."""
-    return [
-        (f"{name}:{reach}", [(_stem(word), word) for word in words])
-        for name, classes in table_of(language).items()
-        for reach, words in classes.items()
-    ]
-
-
 @functools.lru_cache(maxsize=16)
 def classes_in(plain: str) -> tuple[tuple[str, Span], ...]:
     """The classes whose words stand in a text, with how far they reach, and where they stand, from left to right.
@@ -70,11 +60,13 @@ def classes_in(plain: str) -> tuple[tuple[str, Span], ...]:
     >>> classes_in("if only it were 5 W")[0]
     ('condition:sentence', (0, 7))
     """
-    small, found = plain.lower(), list[tuple[str, Span]]()
-    for language in languages_of(plain):
-        for name, words in _stems(language):
-            able = [word for stem, word in words if stem in small]
-            found += [(name, span) for span in places(able, plain)]
+    found = [
+        (f"{name}:{reach}", span)
+        for language in languages_of(plain)
+        for name, classes in table_of(language).items()
+        for reach, words in classes.items()
+        for span in places(words, plain)
+    ]
     return tuple(sorted(found, key=lambda each: (each[1][0], -each[1][1])))
 
 
@@ -110,20 +102,11 @@ def _stem(word: str) -> str:
 
 @functools.cache
 def _pattern(word: str) -> re.Pattern[str]:
-    return re.compile(_written(word), re.IGNORECASE)
-
-
-@functools.cache
-def _gap() -> str:
-    """What may stand between words of an expression: "he'd also like"."""
-    return rf"\s+(?:(?:{_any('between')})\s+)?"
-
-
-def _written(word: str) -> str:
-    body = re.escape(word).replace(r"\ ", _gap()).replace(r"\*", r"\w*").replace(r"\#", r"\s?\d+\s?")
-    if "\u3400" <= word[-1] <= "\u9fff" or "\u3400" <= word[0] <= "\u9fff":
-        return body
-    return (rf"(?<!{_LETTER})" if word[0].isalnum() else "") + body + (rf"(?!{_LETTER})" if word[-1].isalnum() else "")
+    body = re.escape(word).replace(r"\ ", _GAP).replace(r"\*", r"\w*").replace(r"\#", r"\s?\d+\s?")
+    latin = not any("\u3400" <= sign <= "\u9fff" for sign in (word[0], word[-1]))
+    ahead, behind = (latin and sign.isalnum() for sign in (word[0], word[-1]))
+    whole = (rf"(?<!{_LETTER})" if ahead else "") + body + (rf"(?!{_LETTER})" if behind else "")
+    return re.compile(whole, re.IGNORECASE)
 
 
 def _any(name: str) -> str:
@@ -131,6 +114,8 @@ def _any(name: str) -> str:
     return either("talk_forms", "sentences", name)
 
 
+_GAP = rf"\s+(?:(?:{_any('between')})\s+)?"
+"""What may stand between words of an expression: "he'd also like"."""
 _ASKS = deferred(rf"(?i)\s*(?:{_any('surely_asks')})")
 _ASKS_ELSEWHERE = deferred(rf"(?i)\s*[¿]?(?:(?:und|et|y) )?(?:{_any('asks')})")
 _IMPERATIVE = deferred(rf"(?i)^\s*(?:\w+,? )?have\b|{_any('begs')}")
@@ -159,15 +144,15 @@ def without_a_tag(text: str) -> str:
     >>> without_a_tag("stay below 8 W, will you?"), without_a_tag("is 8 W enough?")
     ('stay below 8 W', 'is 8 W enough?')
     """
-    tag = _TAG.search(text.replace("¿", ""))
-    return text.replace("¿", "")[: tag.start()] if tag is not None else text
+    plain = text.replace("¿", "")
+    tag = _TAG.search(plain)
+    return plain[: tag.start()] if tag is not None else text
 
 
 def is_asked(plain: str) -> bool:
     """Whether a sentence is certainly a question: it ends like one, or says that it only asks."""
-    if _ONLY_ASKING.search(plain) is not None:
-        return True
-    return begins_like_a_question(plain) and plain.rstrip().endswith(("?", "\uff1f"))
+    ends = plain.rstrip().endswith(("?", "\uff1f"))
+    return _ONLY_ASKING.search(plain) is not None or (ends and begins_like_a_question(plain))
 
 
 def begins_like_a_question(plain: str) -> bool:
@@ -224,13 +209,9 @@ def lifted_in(plain: str) -> dict[str, Span]:
 
     Words that lift a limit stand ahead of its name or behind it, with no denial beside them; another may follow.
     """
-    limits = named_in(plain)
-    if not limits:
-        return {}
-    go, gone = (list(places(_lifted(name), plain)) for name in ("go", "gone"))
-    denied = list(places(_denying(), plain))
+    go, gone, denied = (list(places(words, plain)) for words in (_lifted("go"), _lifted("gone"), _denying()))
     found: dict[str, Span] = {}
-    for span, name in limits:
+    for span, name in named_in(plain):
         ahead = [each for each in go if _is_beside(plain, each, span)]
         ahead += [each for each in found.values() if _is_beside(plain, each, span, ",")]
         behind = [each for each in gone if _is_beside(plain, span, each)]

@@ -47,44 +47,43 @@ class Judgement:
     """The kind of a sentence and what it is about.
 
     Attributes:
-        kind: the likeliest kind; "allocate" only where ``acts``.
+        kind: the likeliest kind; "allocate" only where the objective is likely enough to act on it.
         topic: of a question, a command or what to clarify; "" otherwise.
         objective: the likeliest objective, whatever the kind; its share is ``likeliest``.
         limits: how likely the sentence only sets limits and names no objective.
         certainty: 0 to 1, of what was decided.
-        acts: whether the objective is likely enough to act on it.
         objective_clear: whether the operator named an objective by its own phrase.
         spoken_of: the objective that a question speaks of; None where it speaks of limits or of nothing.
     """
 
     kind: IntentKind
-    topic: str
+    topic: str = ""
     objective: str
     likeliest: float
     limits: float
-    certainty: float
-    acts: bool
+    certainty: float = 1.0
     objective_clear: bool = False
     spoken_of: str | None = None
 
+    @property
+    def acts(self) -> bool:
+        return self.kind == "allocate"
 
-def judge(sentence: Sentence, registered: set[str]) -> Judgement:
-    """What the sentence wants, among the registered objectives."""
+
+def judge(sentence: Sentence) -> Judgement:
+    """What the sentence wants."""
     goal, labels = sentence.goal, sentence.chances.kinds
     kinds = _by_kind(labels)
     objective = max(BUILT_IN, key=lambda name: labels[name])
     share, limits = labels[objective], labels[_LIMITS]
     command = moods.plain_command(sentence.plain)
     if command:
-        return Judgement(
-            kind="command", topic=command, objective=objective, likeliest=share, limits=limits, certainty=1.0,
-            acts=False,
-        )  # fmt: skip
+        return Judgement(kind="command", topic=command, objective=objective, likeliest=share, limits=limits)
     own_phrase = goal.verdict == "clear" and (goal.objective not in BUILT_IN or _is_all_said(sentence))
     if own_phrase and kinds["question"][0] + kinds["command"][0] < _OWN_PHRASE_ASKED:
         return Judgement(
-            kind="allocate", topic="", objective=goal.objective, likeliest=1.0, limits=0.0, certainty=goal.confidence,
-            acts=goal.objective in registered, objective_clear=True,
+            kind="allocate", objective=goal.objective, likeliest=1.0, limits=0.0, certainty=goal.confidence,
+            objective_clear=True,
         )  # fmt: skip
     kind, spoken_of = _kind(sentence, kinds, objective, share), _spoken_of(goal, labels)
     told = kind == "clarify" and sentence.worded and sentence.chances.is_told
@@ -101,7 +100,7 @@ def judge(sentence: Sentence, registered: set[str]) -> Judgement:
     sure = max(agreed, share) if acts else kinds[kind][0]
     return Judgement(
         kind=kind, topic=topic, objective=objective, likeliest=share, limits=limits,
-        certainty=round(min(1.0, sure), 4), acts=acts, spoken_of=spoken_of,
+        certainty=round(min(1.0, sure), 4), spoken_of=spoken_of,
     )  # fmt: skip
 
 
@@ -215,7 +214,7 @@ class _Understanding:
         self._unread = amount_of_another_time(self._sentence.plain) or unread(
             self._sentence.plain, [*self._reading.masked, *self._reading.counted, *named, *dropped_spans]
         )
-        self._judged: Judgement = judge(self._sentence, set(voice.labels))
+        self._judged: Judgement = judge(self._sentence)
         self._fair = [name for name in _FAIR_OBJECTIVES if name in voice.labels]
 
     def intent(self) -> Intent:
@@ -285,7 +284,7 @@ class _Understanding:
                 details.setdefault("objective", aim)
             return self._answer.question(topic, details, judged.certainty)
         if judged.kind == "command":
-            if is_unsure(topic, self._sentence.plain, judged.certainty):
+            if self._is_unsure(topic):
                 said = self._voice.say(f"command.{topic}")
                 return self._answer.ask("unsure_command", judged.certainty, offered=topic, text=said)
             assert topic in COMMANDS
@@ -297,6 +296,12 @@ class _Understanding:
             key = "hello" if "greeting" in self._sentence.concepts else "out_of_scope"
             return self._answer.out_of_scope(key, judged.certainty)
         return None
+
+    def _is_unsure(self, topic: str) -> bool:
+        """Whether a command that changes something may have been meant, and has to be asked for: "hmm" undoes none."""
+        cue = _CUES.get(topic)
+        said = cue is None or cue.search(self._sentence.plain) is not None
+        return topic in CHANGING and not (said and self._judged.certainty >= _SURE_OF_A_COMMAND)
 
     def _unfulfillable(self) -> Intent | None:
         """The first figure or user that can't be used as said, put as a question."""
@@ -328,10 +333,14 @@ class _Understanding:
         return self._question_back()
 
     def _lets_somebody_starve(self, objective: str) -> bool:
-        """Whether a wish that nobody goes without would be dropped: no least rate for all, no fair objective."""
+        """Whether a wish that nobody goes without would be dropped: no least rate for all, no fair objective.
+
+        "max rate, but don't starve anyone" is one, "everyone is starving" none.
+        """
         floors = self._reading.values.get("min_rate_bps")
         floor = floors.get(EVERYBODY, 0.0) if isinstance(floors, Mapping) else floors
-        return objective in _UNFAIR_OBJECTIVES and not floor and nobody_starves(self._sentence.plain)
+        unfair = objective in _UNFAIR_OBJECTIVES and not floor
+        return unfair and _NOBODY_STARVES.search(self._sentence.plain) is not None
 
     def _question_back(self) -> Intent:
         """What to ask where no wish is sure."""
@@ -400,23 +409,3 @@ class _Understanding:
     def _words_for(self, concept: str) -> str:
         item = next(item for item in self._sentence.found if item.term.concept == concept)
         return self._text[item.start : item.end]
-
-
-def nobody_starves(plain: str) -> bool:
-    """Whether a normalised sentence wishes that nobody goes without.
-
-    >>> nobody_starves("max rate, but don't starve anyone"), nobody_starves("everyone is starving")
-    (True, False)
-    """
-    return _NOBODY_STARVES.search(plain) is not None
-
-
-def is_unsure(topic: str, plain: str, certainty: float) -> bool:
-    """Whether a command that changes something may have been meant, and has to be asked for.
-
-    >>> is_unsure("undo", "undo that", 0.9), is_unsure("undo", "hmm", 0.9), is_unsure("history", "hmm", 0.5)
-    (False, True, False)
-    """
-    cue = _CUES.get(topic)
-    said = cue is None or cue.search(plain) is not None
-    return topic in CHANGING and not (said and certainty >= _SURE_OF_A_COMMAND)

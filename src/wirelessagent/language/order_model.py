@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -54,15 +54,11 @@ class Frame:
 
     def without(self, first: int, size: int) -> Frame:
         """The same without some tokens side by side."""
-        end, moods = first + size, list[tuple[str, int, int]]()
-        for name, begin, last in self.moods:
-            if last < first or begin >= end:
-                moved = size if begin >= end else 0
-                moods.append((name, begin - moved, last - moved))
-        return Frame(
-            tokens=self.tokens[:first] + self.tokens[end:], spans=self.spans[:first] + self.spans[end:],
-            moods=tuple(moods), language=self.language,
-        )  # fmt: skip
+        end = first + size
+        moods = [each for each in self.moods if each[2] < first]
+        moods += [(name, begin - size, last - size) for name, begin, last in self.moods if begin >= end]
+        tokens, spans = self.tokens[:first] + self.tokens[end:], self.spans[:first] + self.spans[end:]
+        return replace(self, tokens=tokens, spans=spans, moods=tuple(moods))
 
 
 def frame_of(sentence: Sentence) -> Frame:

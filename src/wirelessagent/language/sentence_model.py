@@ -211,20 +211,16 @@ class SentenceModel:
 
         ``other`` is a score for an order by another reader of it, which counts as much as the network's.
         """
-        seen = self._seen(words[:_MOST_WORDS])[None]
+        rows = rows_of(*hashes_of(words[:_MOST_WORDS]), self.known)
+        seen = np.asarray(embedded(np, self.weights, rows), np.float32)[None]
         with np.errstate(over="ignore"):  # exp(88) is infinite here, and 1 divided by it nothing
             (kinds,), ((own,),), ((faithful,),) = scores(np, self.weights, seen, np.ones(seen.shape[:2], np.float32))
-        likely = np.exp(kinds - kinds.max())
-        likely /= likely.sum()
+        likely = _shares(np, kinds)
         score = float(np.clip([own, own if other is None else other], -_SUREST, _SUREST).mean())
         return Chances(
             kinds=dict(zip(self.labels, likely.tolist(), strict=True)),
             order=_chance(score) if len(words) <= _MOST_WORDS else 0.0, faithful=_chance(float(faithful)),
         )  # fmt: skip
-
-    def _seen(self, words: Sequence[Word]) -> npt.NDArray[np.float32]:
-        """(word, EMBEDDED) of a sentence."""
-        return np.asarray(embedded(np, self.weights, rows_of(*hashes_of(words), self.known)), np.float32)
 
 
 def embedded(xp: ModuleType, weights: Weights, features: Any) -> Any:

@@ -18,6 +18,7 @@ import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
+from typing import NamedTuple
 
 from wirelessagent.language.intent import Constraint
 from wirelessagent.language.mentions import BY_PLACE, PLACED
@@ -27,6 +28,23 @@ from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.text import Phrases, Span, clause_end, clause_start, is_chinese, is_within, overlaps
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.word_tables import deferred, either, languages_with, table, words_of
+
+
+class Beside(NamedTuple):
+    """Words right ahead of a span of a normalised text, and words right behind."""
+
+    ahead: re.Pattern[str]
+    behind: re.Pattern[str]
+
+    def is_at(self, plain: str, start: int, end: int, from_: int = 0) -> bool:
+        """Whether such words stand on either side of a span, those ahead no farther than ``from_``."""
+        return bool(self.ahead.search(plain, from_, start) or self.behind.match(plain, end))
+
+    def widened(self, plain: str, span: Span) -> Span:
+        """The span with such words."""
+        ahead, behind = self.ahead.search(plain, 0, span[0]), self.behind.match(plain, span[1])
+        return ahead.start() if ahead else span[0], behind.end() if behind else span[1]
+
 
 # Generations, picture sizes and the like: they look like figures and describe.
 _NAMES = deferred(
@@ -42,15 +60,8 @@ _TIMES = Phrases(
     rf"(?<![\w.,])[0-9]{{1,2}}(?:\.|st|nd|rd|th|er)?\s+(?:de\s+|of\s+)?{_MONTH}|"
     r"(?<![\w.,])(?:19|20)[0-9]{2}(?=\s*(?:$|[,.;:!?)]|年))|"
     rf"(?:{either('figures', 'times', 'from')}) [0-9]{{1,2}}"
-    rf"(?=(?: h)? (?:{either('figures', 'times', 'to')}) [0-9]{{1,2}}\s?{_SPELL})|"
-    r"\b(?:half an?|a half|next half) hour\b|\blas? [0-9]{1,2} de la (?:mañana|tarde|noche|madrugada)|"
-    r"\b(?:for|in|within|after|until|during|next|last|past|every)\s+(?:the\s+)?(?:next\s+|last\s+)?"
-    r"(?:two|three|four|five|six|ten|twelve|thirty)\s+"
-    r"(?:hours?|minutes?|mins?|days?|weeks?|months?|years?)\b|[0-9一二两三四五六七八九十半]{1,3}(?:点钟?|小时|分钟|"
-    r"个小时|天|周|个月|年)(?!\s*[w瓦])|"
-    r"(?:周|星期|礼拜)[一二三四五六日天]|[一二三四五六七八九十0-9]{1,2}月|[一二三四五六七八九十0-9]{1,2}[日]"
+    rf"(?=(?: h)? (?:{either('figures', 'times', 'to')}) [0-9]{{1,2}}\s?{_SPELL})|{either('figures', 'times', 'said')}"
 )
-_OF_THE_YEAR = Phrases(r"\b(?:this|last|next|each|every|per|the) quarter\b", "quarter")
 _VAGUE = deferred(
     r"(?i)(?<!as )\b(?:few|several|couple|handful|pair|dozens?|hundreds|thousands|some|lots|plenty|"
     r"(?<=a )number)\s+(?:of\s+)?"
@@ -60,9 +71,8 @@ _IS_GIVEN = deferred(r"\s*(?:→|[-=]>|[=:])\s*[0-9.]")  # "floors: 1 → 300k, 
 _UNIT_OF_ANOTHER_KIND = deferred(
     r"(?i)\s?(?:[kMG](?![^\W\d_])|dB|J|[km]?A|joules?|julios?|amps?|amperes?|decibels?)(?![^\W\d_])|\s*[千兆毫]?(?:焦|安培|分贝)"
 )
-_ALONE_AHEAD = deferred(r"(?i)(?:^|[,;:.!?\uff0c\uff1b。])\s*(?:with|at|on|con|a|avec|à|mit|bei|用)?\s*$|\bwith\s+$")
-_ALONE_BEHIND = deferred(r"\s*(?:$|[,;:.!?\uff0c\uff1b。])")
-_ALL_IDIOMS = (_NAMES, _TIMES, _OF_THE_YEAR)
+_BEGINS = deferred(r"(?i)(?:^|[,;:.!?\uff0c\uff1b。])\s*(?:with|at|on|con|a|avec|à|mit|bei|用)?\s*$|\bwith\s+$")
+_ENDS = deferred(r"\s*(?:$|[,;:.!?\uff0c\uff1b。])")
 _ELECTRIC = r"[km]?V|volts?|voltios?|[km]?Wh|[kMG]?Hz|hertz"
 _RATING = deferred(  # what a device has, and a limit only where nothing else is said; abbreviations, "43 dbx"
     r"\s?-?(?:(?![A-Z]{1,4}s\b)(?i:[bcdfghjklmnpqrstvwxz]{2,5})|"
@@ -90,12 +100,11 @@ def unread(plain: str, covered: Sequence[Span]) -> Span | None:
     '43 dB'
     """
     known = [*covered, *idioms(plain)]
-    places = sorted(place for place in _numbers_at(plain) if not overlaps((place, place + 1), known))
-    if not places:
+    first = min((place for place in _numbers_at(plain) if not overlaps((place, place + 1), known)), default=None)
+    if first is None:
         return None
-    match = _TO_THE_RIGHT.match(plain, places[0])
-    end = match.end() if match is not None else places[0]
-    return places[0], max(end, places[0] + 1)
+    match = _TO_THE_RIGHT.match(plain, first)
+    return first, max(match.end() if match is not None else 0, first + 1)
 
 
 @functools.lru_cache(maxsize=64)
@@ -103,15 +112,10 @@ def idioms(plain: str) -> tuple[Span, ...]:
     """Where numbers are part of a name, a time or a turn of phrase."""
     return tuple(
         match.span()
-        for pattern in _ALL_IDIOMS
+        for pattern in (_NAMES, _TIMES)
         for match in pattern.finditer(plain)
         if not (pattern is _TIMES and "may" in plain[slice(*match.span())])  # no month
     )
-
-
-def is_all_said(plain: str, start: int, end: int) -> bool:
-    """Whether a clause says nothing but the figure at [start, end), as limits are said: "max rate, 10 Wh"."""
-    return _ALONE_AHEAD.search(plain, 0, start) is not None and _ALONE_BEHIND.match(plain, end) is not None
 
 
 def loose_numbers(plain: str, covered: Sequence[Span]) -> list[Number]:
@@ -141,8 +145,8 @@ def _cut(plain: str, number: Number, taken: Sequence[Span]) -> Number:
 def may_be_a_limit(plain: str, number: Number) -> bool:
     """Whether a number stands where a limit would, or before a unit that no limit here has ("43 dB", "10 joules")."""
     rating = _RATING.match(plain, number.end)
-    if rating is not None and is_all_said(plain, number.start, rating.end()):
-        return True
+    if rating is not None and _BEGINS.search(plain, 0, number.start) and _ENDS.match(plain, rating.end()):
+        return True  # a clause says nothing else, as limits are said: "max rate, 10 Wh"
     if _UNIT_OF_ANOTHER_KIND.match(plain, number.end) is not None:
         return True
     return _SETS_A_LIMIT.search(plain, 0, number.start) is not None and _IS_GIVEN.match(plain, number.end) is None
@@ -165,8 +169,10 @@ def _is_figure(plain: str, number: Number) -> bool:
     return number.form == "chinese" and _CHINESE_FIGURE.search(plain, number.start, number.end + 1) is not None
 
 
-_CHANGED_BY = deferred(rf"(?i)(?:{either('figures', 'one', 'changed_by')})\s*(?:about|around|roughly)?\s*$")
-_CHANGED_BEHIND = deferred(rf"(?i)\s*(?:{either('figures', 'one', 'changed_behind')})(?!\w)")
+_CHANGED = Beside(
+    deferred(rf"(?i)(?:{either('figures', 'one', 'changed_by')})\s*(?:about|around|roughly)?\s*$"),
+    deferred(rf"(?i)\s*(?:{either('figures', 'one', 'changed_behind')})(?!\w)"),
+)
 _ALL = deferred(r"(?i)\b(?:all|all of|all the|every one of)\s*(?:the\s+|our\s+|these\s+)?$|(?:所有|全部)的?\s*$")
 _DESCRIBED_BEFORE = deferred(rf"(?i)(?:^|{either('figures', 'users', 'ahead_of_all')})\s*$")
 _DESCRIBED_AFTER = deferred(rf"(?i)\s*(?:$|(?:{either('figures', 'users', 'behind_all')}))")
@@ -186,7 +192,7 @@ _OTHERS_HALVED = Phrases(
 _LIMITED, _TO, _FULL = ("|".join(words_of("figures", "shared", name)) for name in ("limited", "to", "full"))
 _MOST = rf"(?:(?:max|máx)\w*\.?|{_LIMITED}|=|<=|≤|:)?\s*(?:(?:max|{_TO})\.?\s*)?"
 _BUDGET = "|".join(words_of("figures", "shared", "power", "budgets"))
-_SHARED = (
+_SHARED = Beside(
     deferred(
         rf"(?i)(?:\b(?:p_?max|(?:max\w*\.?\s+)?(?:{POWER_NOUNS}))\s*{_MOST}|功率(?:用|压|降|限制|上限)?[到在为是]?)$"
     ),
@@ -207,7 +213,7 @@ _BLOCKS = Phrases(
 )
 _GROUP = f"(?:{'|'.join(words_of('figures', 'grouped', 'carriers', 'groups'))})"
 _JOINT = f"(?:{'|'.join(words_of('figures', 'grouped', 'joints'))})"
-_GROUPED = (
+_GROUPED = Beside(
     deferred(
         rf"(?i)\b(?:in\s+)?{_GROUP}\b(?:[\s:=-]+(?:{_GROUP}|{_JOINT})\b)*[\s:=-]*$|(?:[每按以]|资源块|子载波|块|大小|[为是=])+$"
     ),
@@ -283,25 +289,19 @@ class Reading:
 
     def take_share(self, figure: Quantity, max_power_w: float) -> None:
         """Take a share of the power, with the words beside that say so."""
-        span = self._with_words_beside((figure.phrase_start, figure.phrase_end), _SHARED)
+        span = _SHARED.widened(self.plain, (figure.phrase_start, figure.phrase_end))
         self.masked.append(span)
         self.spoken_for.append(span)
         self.take("max_power_w", figure.value * max_power_w, figure)
 
     def changes_by(self, figure: Quantity) -> bool:
         """Whether something is to become more or less by a share: "half the power less"."""
-        start, end = self._with_words_beside((figure.phrase_start, figure.phrase_end), _SHARED)
-        itself = "减" in figure.text  # 减半
-        return itself or bool(_CHANGED_BY.search(self.plain, 0, start) or _CHANGED_BEHIND.match(self.plain, end))
-
-    def _with_words_beside(self, span: Span, words: tuple[re.Pattern[str], re.Pattern[str]]) -> Span:
-        """A span with such words right ahead of it, and right behind."""
-        ahead, behind = words[0].search(self.plain, 0, span[0]), words[1].match(self.plain, span[1])
-        return ahead.start() if ahead else span[0], behind.end() if behind else span[1]
+        span = _SHARED.widened(self.plain, (figure.phrase_start, figure.phrase_end))
+        return "减" in figure.text or _CHANGED.is_at(self.plain, *span)  # 减半
 
     def take_group(self, size: float, span: Span) -> None:
         """Take how many subcarriers go together, with the words beside that say so."""
-        span = self._with_words_beside(span, _GROUPED)
+        span = _GROUPED.widened(self.plain, span)
         self.spoken_for.append(span)
         self.masked.append(span)
         if size < 1 or not size.is_integer():
@@ -331,7 +331,7 @@ def take_counts(reading: Reading, recounted: Sequence[Span], allotted: Sequence[
             continue
         words = reading.text[slice(*match.span())]
         reading.counted.append(match.span())
-        if _describes_all(*_clause_around(reading, *match.span())):
+        if _describes_all(reading, *match.span()):
             reading.not_used.append(words)
         else:
             reading.doubt("not_understood" if CARRIERS.search(words) else "some_users", text=words)
@@ -351,16 +351,14 @@ def doubt_parts(reading: Reading, allotted: Sequence[Span]) -> None:
         reading.doubt(key, text=reading.text[slice(*match.span())])
 
 
-def _clause_around(reading: Reading, start: int, end: int) -> tuple[str, str]:
-    """What stands before and after a span within its clause, figures being borders too."""
+def _describes_all(reading: Reading, start: int, end: int) -> bool:
+    """Whether a count of users tells how many there are, rather than picking some: "for 3 users" picks.
+
+    Its clause says so, figures being borders, too.
+    """
     plain = reading.plain
-    from_ = max([0, *(figure.phrase_end for figure in reading.quantities if figure.phrase_end <= start)])
-    to = min([len(plain), *(figure.phrase_start for figure in reading.quantities if figure.phrase_start >= end)])
-    return plain[clause_start(plain, start, from_) : start], plain[end : clause_end(plain, end, to)]
-
-
-def _describes_all(before: str, after: str) -> bool:
-    """Whether a count of users tells how many there are, rather than picking some: "for 3 users" picks."""
-    if _ALL.search(before):
-        return True
-    return _DESCRIBED_BEFORE.search(before) is not None and _DESCRIBED_AFTER.match(after) is not None
+    first = max([0, *(figure.phrase_end for figure in reading.quantities if figure.phrase_end <= start)])
+    last = min([len(plain), *(figure.phrase_start for figure in reading.quantities if figure.phrase_start >= end)])
+    before, after = plain[clause_start(plain, start, first) : start], plain[end : clause_end(plain, end, last)]
+    described = _DESCRIBED_BEFORE.search(before) and _DESCRIBED_AFTER.match(after)
+    return described is not None or _ALL.search(before) is not None

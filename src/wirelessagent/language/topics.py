@@ -10,7 +10,7 @@ import re
 from collections.abc import Mapping
 
 from wirelessagent import plugins
-from wirelessagent.language.intent import Constraint, Detail
+from wirelessagent.language.intent import Detail
 from wirelessagent.language.moods import places
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.quantities import parse_quantities
@@ -131,22 +131,15 @@ def _step(sentence: Sentence) -> Mapping[str, Detail]:
     share = next((figure.value for figure in said if figure.kind == "ratio"), None)
     if share is not None and "rate" in sentence.concepts:
         steps = {"rate_share": share}
-    steps = steps or _stated(sentence.reading.values) or {"power_w": 1.0}
+    if not steps:  # a limit that is named
+        power, rate = (sentence.reading.values.get(name) for name in ("max_power_w", "min_rate_bps"))
+        rate = next(iter(rate.values())) if isinstance(rate, Mapping) else rate
+        stated = {"power_w": power, "rate_bps": rate}.items()
+        steps = next(({name: value} for name, value in stated if isinstance(value, float)), {"power_w": 1.0})
     if "rate_bps" in steps and _EACH.search(plain):
         steps["each"] = 1.0
     sign = -1.0 if _FEWER.search(plain) and said else 1.0
     return {name: sign * value if isinstance(value, float) else value for name, value in steps.items()}
-
-
-def _stated(values: Mapping[str, Constraint]) -> dict[str, Detail]:
-    power, rate = values.get("max_power_w"), values.get("min_rate_bps")
-    if isinstance(power, float):
-        return {"power_w": power}
-    if isinstance(rate, float):
-        return {"rate_bps": rate}
-    if isinstance(rate, Mapping):
-        return {"rate_bps": next(iter(rate.values()))}
-    return {}
 
 
 def tools_named(text: str, *kinds: plugins.Kind) -> tuple[str, ...]:

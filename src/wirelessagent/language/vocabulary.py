@@ -67,6 +67,7 @@ def is_listed(word: str) -> bool:
 
 @functools.cache
 def _bases() -> frozenset[str]:
+    """The base words, which are English."""
     return frozenset(base for path in FOLDER.glob("*.tsv") for base in _base_words(path.stem).values())
 
 
@@ -82,7 +83,7 @@ def _expressions(tokens: Sequence[str], language: str) -> Iterator[tuple[str, in
     A Chinese character that is in no listed expression has none.
     """
     own, english, chinese = (_base_words(each) for each in (language, "en", "zh"))
-    place, longest = 0, _longest("zh")
+    place, longest = 0, _longest_chinese()
     while place < len(tokens):
         token, size = tokens[place], 1
         run = "".join(itertools.takewhile(is_chinese, tokens[place : place + longest]))
@@ -104,8 +105,8 @@ def _base_words(language: str) -> Mapping[str, str]:
 
 
 @functools.cache
-def _longest(language: str) -> int:
-    return max(map(len, _base_words(language)), default=0)
+def _longest_chinese() -> int:
+    return max(map(len, _base_words("zh")), default=0)
 
 
 def language_of(text: str) -> str:
@@ -118,8 +119,7 @@ def language_of(text: str) -> str:
     if has_chinese(text):
         return "zh"
     counts = _counts(text)
-    best = max(counts, key=lambda language: counts[language])
-    return best if counts[best] > counts["en"] else "en"
+    return max(counts, key=lambda language: counts[language])
 
 
 def language_in_a_talk(text: str, before: str) -> str:
@@ -159,17 +159,12 @@ def _counts(text: str) -> Mapping[str, int]:
     small = text.lower()
     counts: dict[str, int] = dict.fromkeys(("en", "es", "fr", "de"), 0)
     for word in map(unaccented, _WORD.findall(small)):
-        listing = [language for language in counts if _lists(language, word)]
+        listing = [each for each in counts if word in _base_words(each) or (each == "en" and word in _bases())]
         for language in listing:
             counts[language] += 1 if language == "en" or len(listing) > 1 else _ALONE
     for language, letters in _LETTERS.items():
         counts[language] += 2 * sum(small.count(letter) for letter in letters)
     return counts
-
-
-def _lists(language: str, word: str) -> bool:
-    """Whether a language lists a word, in lower case and without accents; base words are English."""
-    return word in _base_words(language) or (language == "en" and word in _bases())
 
 
 MASK = "#"
@@ -208,6 +203,10 @@ class Found:
     last: int
     clause: int
     corrected: bool
+
+    @property
+    def concept(self) -> str:
+        return self.term.concept
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -249,8 +248,6 @@ class Vocabulary:
     """The lexicon, ``lexicon/<language>.toml``, together with the objectives' own words."""
 
     def __init__(self, own: Iterable[OwnWords]) -> None:
-        self._by_first: dict[str, list[tuple[tuple[str, ...], Term]]] = {}
-        self._words: set[str] = set()
         known: dict[tuple[str, ...], Term] = {}
         tables = [table("lexicon", language) for language in languages_with("lexicon")]
         for each in tables:
@@ -268,67 +265,49 @@ class Vocabulary:
         for phrase in (_entry(item) for each in tables for item in each["also"]["complaints"]):
             known[phrase] = replace(known[phrase], complaint=True)
         known.pop((), None)
-        for phrase, term in known.items():
+        self._by_first: dict[str, list[tuple[tuple[str, ...], Term]]] = {}
+        for phrase, term in sorted(known.items(), key=lambda entry: -len(entry[0])):
             self._by_first.setdefault(phrase[0], []).append((phrase, term))
-            self._words.update(phrase)
-        for entries in self._by_first.values():
-            entries.sort(key=lambda entry: -len(entry[0]))
-        self._right = self._words.union(word for each in tables for word in each["also"].get("right", ()))
-        self._long = sorted(word for word in self._words if len(word) >= _LONG - 1 and word.isascii())
-        self._slips: dict[str, set[str]] = {}
-        for word in self._words:
-            if len(word) >= _SHORTEST_CORRECTED:
-                for variant in _deletions(word):
-                    self._slips.setdefault(variant, set()).add(word)
+        words = {word for phrase in known for word in phrase}
+        self._right = words.union(word for each in tables for word in each["also"].get("right", ()))
+        self._able = [word for word in words if len(word) >= _SHORTEST_CORRECTED]
 
     def find(self, units: Sequence[Unit]) -> list[Found]:
         """The terms of a sentence from left to right, not overlapping, the longest first at each place."""
-        corrections = [self._corrected(unit.word) for unit in units]
-        found: list[Found] = []
+        words, found = [self._corrected(unit.word) for unit in units], list[Found]()
         place, clause_shift = 0, 0
         while place < len(units):
-            match = self._longest(units, corrections, place)
-            if match is None:
-                place += 1
-                continue
-            length, term = match
-            if term.concept == "split":
-                clause_shift += 1
-            said = units[place : place + length]
-            found.append(Found(
-                term=term, start=said[0].start, end=said[-1].end, first=place, last=place + length,
-                clause=said[0].clause + clause_shift,
-                corrected=any(corrections[place + i] != unit.word for i, unit in enumerate(said)),
-            ))  # fmt: skip
-            place += length
+            last, term = self._longest(units, words, place)
+            if term is not None:
+                clause_shift += term.concept == "split"
+                said = units[place:last]
+                found.append(Found(
+                    term=term, start=said[0].start, end=said[-1].end, first=place, last=last,
+                    clause=said[0].clause + clause_shift, corrected=words[place:last] != [unit.word for unit in said],
+                ))  # fmt: skip
+            place = last
         return found
 
-    def _longest(self, units: Sequence[Unit], words: Sequence[str], place: int) -> tuple[int, Term] | None:
+    def _longest(self, units: Sequence[Unit], words: Sequence[str], place: int) -> tuple[int, Term | None]:
+        """Where the longest phrase of a place ends, and what it does; the next place where none begins."""
         for phrase, term in self._by_first.get(words[place], ()):
-            length = len(phrase)
-            one_clause = place + length <= len(units) and units[place + length - 1].clause == units[place].clause
-            if one_clause and tuple(words[place : place + length]) == phrase:
-                return length, term
-        return None
+            last = place + len(phrase)
+            if words[place:last] == [*phrase] and units[last - 1].clause == units[place].clause:
+                return last, term
+        return place + 1, None
 
     @functools.lru_cache(maxsize=4096)  # noqa: B019  # one vocabulary lives as long as the process
     def _corrected(self, word: str) -> str:
         if len(word) < _SHORTEST_CORRECTED or len(word) > 24 or word in self._right:
             return word
-        near = {known for variant in _deletions(word) for known in self._slips.get(variant, ())}
-        close = [known for known in near if known[0] == word[0] and one_edit(word, known)]
+        close = [known for known in self._able if known[0] == word[0] and one_edit(word, known)]
         if close or len(word) < _LONG:
             return close[0] if len(close) == 1 else word
-        return nearest(word, self._long) or word
+        return nearest(word, (known for known in self._able if len(known) >= _LONG - 1 and known.isascii())) or word
 
 
 def _entry(item: str) -> tuple[str, ...]:
     return tuple(unit.word for unit in units_of(item))
-
-
-def _deletions(word: str) -> list[str]:
-    """The word itself and all that remain when one letter is taken out."""
-    return [word, *(word[:i] + word[i + 1 :] for i in range(len(word)))]
 
 
 def respelt(plain: str) -> str:
@@ -342,9 +321,8 @@ def respelt(plain: str) -> str:
         pair, place = match[1], match.start()
         if pair in _RIGHT:
             continue
-        meant = _MEANT.get("".join(_SOUND_OF.get(letter, letter) for letter in pair))
-        changed = meant is not None and sum(a != b for a, b in zip(meant, pair, strict=True)) == 1
-        if meant is not None and changed:
+        meant = _MEANT.get("".join(_SOUND_OF.get(letter, letter) for letter in pair), pair)
+        if sum(a != b for a, b in zip(meant, pair, strict=True)) == 1:
             letters[place : place + 2] = meant
     return "".join(letters)
 
