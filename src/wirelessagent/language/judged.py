@@ -20,14 +20,23 @@ from decimal import Decimal
 from typing import TypeVar
 
 from wirelessagent.language.figure_roles import SCALED, Look, answers, likely, shipped_roles
-from wirelessagent.language.mentions import BY_PLACE, JOINT, LISTED, Mention, mentions, merged
+from wirelessagent.language.mentions import BY_PLACE, GIVEN_TO, JOINT, JOINT_WORDS, LISTED, Mention, mentions, merged
 from wirelessagent.language.moods import named_in
 from wirelessagent.language.number_words import listed
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Measure, Quantity, QuantityKind, measures
 from wirelessagent.language.request import numbered
 from wirelessagent.language.stated import CARRIERS, COUNTED_USERS, FOREIGN_UNIT, idioms, loose_numbers, may_be_a_limit
-from wirelessagent.language.text import WORD_OR_SIGN, Phrases, Span, clause_end, clause_start, is_within, overlaps
+from wirelessagent.language.text import (
+    WORD_OR_SIGN,
+    Phrases,
+    Span,
+    clause_end,
+    clause_start,
+    is_within,
+    overlaps,
+    replaced,
+)  # fmt: skip
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.word_tables import deferred, either, words_of
 
@@ -175,6 +184,9 @@ _OWNS_ELSE = 0.02
 _ONE_OF_A_LIST = 0.3
 _MOST_WEIGHT = 10**6
 _ITEMS = deferred(rf"{LISTED.pattern}|\s*[:/]\s*")  # "weights 2:1:1"
+_BESIDE = deferred(  # between the figures of users one after the other, "@" for these
+    rf"(?i)(?=[^@]*@)(?:[\s,;:、\uff0c\uff1b\uff1a/&=→>()\[\]@-]|{GIVEN_TO}|{JOINT_WORDS}|{either('figures', 'users', 'given_with')})*"
+)
 _WITH_A_JOINT = deferred(rf"(?i)(?=\s*\S)(?:{LISTED.pattern.removeprefix('(?i)')})")
 _WEIGHTS = deferred(  # what follows are weights, whatever else they may look like
     rf"(?i)(?:(?:{either('figures', 'users', 'weights')})(?:\s+(?:of|are|is|being|de|von|sind))?|"
@@ -224,6 +236,10 @@ class Judged:
             number: answers("number", view.number(number, first.bound(number)))
             for number in (*first.loose, *first.ones)
         }
+        likely_users = [n for n in first.loose if chances[n]["user"] > _LIKELY]
+        spans = [(each.start, each.end) for each in (*first.mentions, *likely_users)]
+        for each in _series(plain, [n for n in first.loose if n not in likely_users and n.form != "times"], spans):
+            chances |= dict.fromkeys(each, _jointly([chances[n] for n in each]))
         if _OF_WEIGHTS.search(plain) is None:  # what doubles there is a rate that was said before
             first_rate = min((figure.end for figure in first.figures if figure.kind == "rate"), default=len(plain))
             doubles = [n for n in chances if n.form == "times" and n.start >= first_rate]
@@ -262,6 +278,8 @@ class Judged:
             *_runs(plain, [number for number in self.weights if number.form != "times"], _ITEMS),
         ]
         self.lists = [[item.start for item in each] for each in lists if len(each) > 1]
+        named_at = [(mention.start, mention.end) for mention in look.mentions]
+        self._series = _series(plain, [figure for figure in look.figures if figure.kind == "rate"], named_at)
         self._said: dict[Mention, Mapping[str, float]] = {}
         owned = (*(figure for figure in look.figures if figure.kind == "rate"), *self.weights)
         self._owners = {item.start: self._owners_of(item.start) for item in owned}
@@ -294,8 +312,14 @@ class Judged:
         for starts in self.lists:
             each = [means[start] for start in starts if start in means]
             if each:
-                joint = {role: math.prod(chances[role] for chances in each) ** (1 / len(each)) for role in each[0]}
-                means |= dict.fromkeys(starts, _shares(joint))
+                means |= dict.fromkeys(starts, _jointly(each))
+        for each in self._series:  # "cap 1 at 1.5, 4 at 2 and 6 at 2.5 Mbit/s": one bound
+            bounds = {figure.comparator for figure in each} - {None}
+            first = means[each[0].start]
+            if len(bounds) == 1:
+                bound = _BOUNDED.get(bounds.pop() or "")
+                first = first if bound is None else _moved(first, ("min_rate_bps", "max_rate_bps", "both"), bound)
+            means |= {figure.start: first for figure in each if len(bounds) < 2}
         powers = [figure.start for figure in self._look.figures if figure.kind == "power"][:_MOST_POWERS]
         return means | dict(zip(powers, _each_once([means[start] for start in powers]), strict=True))
 
@@ -368,6 +392,18 @@ def _shares(chances: Mapping[_Answer, float]) -> dict[_Answer, float]:
     """Chances that add up to one."""
     total = sum(chances.values()) or 1.0
     return {answer: chance / total for answer, chance in chances.items()}
+
+
+def _jointly(chances: Sequence[Mapping[str, float]]) -> dict[str, float]:
+    """How likely several have a role that they all have."""
+    joint = {role: math.prod(each[role] for each in chances) ** (1 / len(chances)) for role in chances[0]}
+    return _shares(joint)
+
+
+def _series(plain: str, items: Sequence[_Item], named: Sequence[Span]) -> list[list[_Item]]:
+    """Items of rows that say of one user after the other the same: "cap 1 at 1.5, 4 at 2 and 6 at 2.5 Mbit/s"."""
+    apart = replaced(plain, sorted((start, end, "@" * (end - start)) for start, end in named))
+    return [each for each in _runs(apart, items, _BESIDE) if len(each) > 1]
 
 
 def _runs(plain: str, items: Sequence[_Item], joint: re.Pattern[str]) -> list[list[_Item]]:

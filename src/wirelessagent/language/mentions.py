@@ -302,7 +302,7 @@ def _parted(plain: str, mention: Mention) -> tuple[Mention, ...]:
 
 _DIGIT = "一二两三四五六七八九十"
 _NUMBER = rf"(?:(?<![A-Za-z0-9.,])[0-9]+(?:[.,][0-9]+)?|\b{WORD_NUMBER}\b|(?<![{_DIGIT}])[{_DIGIT}]{{1,3}}+)"
-_FOR = rf"(?:{either('figures', 'users', 'given_to')}|{ARTICLES})"
+GIVEN_TO = rf"(?:{either('figures', 'users', 'given_to')}|{ARTICLES})"
 _BREAK = r"\s*+(?:[,;\uff0c；、啊哎哦唉]|[-–—…]++|\.{2,3}+)\s*+"
 _CORRECTS, _MEANS = (either("figures", "one", name) for name in ("corrects", "means"))
 _JOINT = rf"(?:{JOINT_WORDS}|\b{any_word('figures', 'users', 'to')}\b|[~/&+、到至和与]|(?<=[0-9])[-–](?=[0-9]))"
@@ -320,9 +320,9 @@ _SURELY_A_RATE, _DENIES = 20, ("no", "non", "不", "不是")
 what stands before, when they stand alone."""
 _GOES_ELSEWHERE = deferred(rf"(?i)\s*(?:给|对|(?!(?:{AND})\b|{_BOUND_BEHIND})[A-Za-zÀ-ÿ])")
 _ANOTHER_USER = deferred(rf"(?i){_ANY_NOUN}")
-_OF_USERS = deferred(rf"{NUMBERED.pattern}|{_FOR}\s*$")
-_LIST_AHEAD = deferred(rf"(?i){_NUMBER}\s*号?\s*(?:,\s*)?(?:{_JOINT}|,)\s*(?:{_FOR}\s*)?(?:{_ANY_NOUN}\s*)?$")
-_LIST_BEHIND = deferred(rf"(?i)\s*号?\s*{_JOINT}\s*(?:{_FOR}\s*)?(?:{_ANY_NOUN}\s*)?{_NUMBER}")
+_OF_USERS = deferred(rf"{NUMBERED.pattern}|{GIVEN_TO}\s*$")
+_LIST_AHEAD = deferred(rf"(?i){_NUMBER}\s*号?\s*(?:,\s*)?(?:{_JOINT}|,)\s*(?:{GIVEN_TO}\s*)?(?:{_ANY_NOUN}\s*)?$")
+_LIST_BEHIND = deferred(rf"(?i)\s*号?\s*{_JOINT}\s*(?:{GIVEN_TO}\s*)?(?:{_ANY_NOUN}\s*)?{_NUMBER}")
 
 
 def without_corrected(text: str) -> str:
