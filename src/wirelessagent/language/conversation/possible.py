@@ -26,19 +26,11 @@ from wirelessagent.language.conversation.anchors import Anchor, Anchored
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.recogniser import Context
-from wirelessagent.language.request import (
-    Key,
-    Request,
-    assuming,
-    changed,
-    figures_of,
-    numbered,
-    with_the_assumed,
-)  # fmt: skip
+from wirelessagent.language.request import Key, Request, assuming, changed, figures_of, numbered, with_the_assumed
 from wirelessagent.model.units import human
 
 RATES, POWERS = ("min_rate_bps", "max_rate_bps"), ("max_power_w", "subcarrier_max_power_w", "circuit_power_w")
-OF_THE_CELL = (*POWERS, "outage_probability", "resource_block_group_size")
+LIMITS = (*FIGURES_OF_USERS, *POWERS, "outage_probability", "resource_block_group_size")
 _FEW, _EARLIER, _LISTED = 20.0, 2, 4
 _WITH_UNIT = ("rate", "power")
 _NUMBER = re.compile(r"^[-+\d.,\s]+")
@@ -97,6 +89,10 @@ class Group:
         return Change(tuple(acts), form, kind, self.source, figure, self.anchors, model)
 
 
+CELL = Group(whom=Everybody(), source="")
+"""For whom the limits are that no user has."""
+
+
 class Possible:
     """What a line may change in its talk."""
 
@@ -108,7 +104,7 @@ class Possible:
         self.figures = figures_of(held)
         self.request = None if aim is None else Request(objective=aim, constraints=held)
         self.before = visible(self.request, self.users, assumed=True)
-        self.held = [kind for kind in (*FIGURES_OF_USERS, *OF_THE_CELL) if kind in context.constraints]
+        self.held = [kind for kind in LIMITS if kind in context.constraints]
         self.out = tuple(user for user in self.users if (OUT, user) in self.before)
         self.supposed = tuple(act for one in context.acts if isinstance(one, Suppose) for act in one.acts)
         self.said = self.supposed or context.acts
@@ -137,14 +133,13 @@ class Possible:
         return changed(self.figures, acts)
 
     def _whom(self) -> Iterator[Group]:
-        seen = set[frozenset[str]]()
-        named = list[tuple[tuple[str, ...], str, tuple[Anchor, ...]]]()
+        seen, named = set[frozenset[str]](), list[Group]()
 
         def add(users: Iterable[str], source: str, anchors: tuple[Anchor, ...] = ()) -> None:
             found = tuple(users)
             if found and {*found} <= {*self.users} and (anchors or frozenset(found) not in seen):
                 seen.add(frozenset(found))
-                named.append((found, source, anchors))
+                named.append(Group(whom=Named(found), source=source, anchors=anchors))
 
         for users, anchors in self.named:
             add(users, "named", anchors)
@@ -160,8 +155,9 @@ class Possible:
             own = tuple(user for name, user in self.figures if name == kind and user != EVERYBODY)
             if 1 < len(own) <= _LISTED:  # "both", "those three"
                 add(own, f"own {len(own)}")
-        for users, source, anchors in list(named):
-            add((user for user in self.users if user not in (*users, *self.out)), f"not:{source}", anchors)
+        for group in list(named):
+            apart = (user for user in self.users if user not in (*group.users, *self.out))
+            add(apart, f"not:{group.source}", group.anchors)
         for kind in FIGURES_OF_USERS:
             alike = dict[float | str | None, list[str]]()
             for user in self.users:
@@ -170,18 +166,23 @@ class Possible:
                 size = "none" if figure is None else "most" if 2 * len(users) > len(self.users) else "few"
                 add(users, f"alike:{size}")
         add(self.out, "out")
-        for users, source, anchors in named:
-            if len(users) < len(self.users):
-                yield Group(whom=Named(users), source=source, anchors=anchors)
+        yield from (group for group in named if len(group.users) < len(self.users))
         for kind, whom in (("others", Others()), ("everybody", Everybody())):
             yield Group(whom=whom, source=kind, anchors=tuple(a for a in self.line.anchors if a.kind == kind))
 
-    def figures_of(self, kind: str, whom: Whom) -> list[tuple[Whom, float]]:
+    def groups_for(self, kind: str, figure: Anchor | None = None) -> list[Group]:
+        """For whom a limit of a kind may be changed, perhaps by a figure, which is no user then."""
+        if kind not in FIGURES_OF_USERS:
+            return [CELL]
+        return [group for group in self.groups if figure not in group.anchors]
+
+    def figures_of(self, kind: str, whom: Whom) -> Sequence[tuple[Whom, float]]:
         """The figures that hold for somebody, each with whose it is; none where somebody named has none."""
         common = self.figures.get((kind, EVERYBODY))
         if isinstance(whom, Named):
             found = [(Named((user,)), self.figures.get((kind, user), common)) for user in whom.users]
-            return [(whose, figure) for whose, figure in found if figure] if all(f for _, f in found) else []
+            held = [(whose, figure) for whose, figure in found if figure]
+            return held if len(held) == len(found) else []
         users = {user: figure for (name, user), figure in self.figures.items() if name == kind and user != EVERYBODY}
         own = [(Named((user,)), figure) for user, figure in users.items() if figure and isinstance(whom, Everybody)]
         return [*([(Others() if users else whom, common)] if common else []), *own]
