@@ -11,8 +11,8 @@ import dataclasses
 from collections.abc import Mapping
 
 from wirelessagent.language import moods
-from wirelessagent.language.conversation.anchors import Anchored
-from wirelessagent.language.conversation.line import NAME, Line, begins, group, has, is_all
+from wirelessagent.language.conversation.commands import by_form
+from wirelessagent.language.conversation.line import NAME, Forms, Line, begins, has, is_all
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.moods import places, table_of
 from wirelessagent.language.offline import NAME as OFFLINE
@@ -22,7 +22,9 @@ from wirelessagent.language.text import lowered, normalise
 from wirelessagent.language.topics import about, number_of, tools_named
 from wirelessagent.language.vocabulary import languages_of
 
-_ASKED: Mapping[str, tuple[str, Mapping[str, Detail]]] = {
+_ASKED_EVER: Forms = {"in_force": ("status", {}), "turn_said": ("history", {})}
+"""What is asked whether a request holds or not."""
+_ASKED: Forms = {
     "why_not": ("why_infeasible", {}),
     "channel": ("uncertainty", {}),
     "how_sure": ("uncertainty", {}),
@@ -46,14 +48,10 @@ def read_question(line: Line) -> Intent | None:
     """The question that a line is as a whole; None for any other line."""
     if is_all("thanks", line.shape.rstrip(".!。~ ")):
         return line.courtesy("welcome")
-    if is_all("in_force", line.said):
-        return line.command("status")
-    match = is_all("turn_said", line.said)
-    if match is not None:
-        return line.command("history", turn=float(group(match)))
-    if line.context.objective is None:
-        return None
-    asked = line.by_form(line.said, _ASKED)
+    asked = by_form(line, line.said, _ASKED_EVER)
+    if asked is not None or line.context.objective is None:
+        return asked
+    asked = by_form(line, line.said, _ASKED)
     if asked is not None:
         return asked
     if not line.figures and has("missing", line.said):
@@ -194,20 +192,27 @@ def _limit(line: Line, figure: Quantity) -> dict[str, Constraint]:
 
 
 def asked_instead(line: Line, understood: Intent) -> Intent | None:
-    """What to answer instead of a question back about the aim, which is known; None where that is not asked."""
+    """What to answer instead of a question back about the aim, which is known; None where that is not asked.
+
+    That is a question that the line likely asks, else the same question back without the aim.
+    """
     if line.context.objective is None or understood.kind != "clarify":
         return None
     asks = moods.is_asked(line.shape) or moods.asks_without_a_mark(line.shape) or has("asking", line.shape)
-    if understood.pending or understood.asks not in _OPEN or not asks:
-        return _without_the_aim(line, understood)
-    kinds = line.sentence.chances.kinds
-    questions = {label: share for label, share in kinds.items() if label.startswith("question")}
-    others = (share for label, share in kinds.items() if not label.startswith(("question", "command")))
-    if sum(questions.values()) <= max(others):
-        return _without_the_aim(line, understood)
-    likeliest = max(questions, key=lambda label: questions[label]).partition(".")[2]
-    topic, details = about(likeliest, line.sentence)
-    return line.question(topic, **details)
+    if asks and understood.asks in _OPEN and not understood.pending:
+        kinds = line.sentence.chances.kinds
+        questions = {label: share for label, share in kinds.items() if label.startswith("question")}
+        others = (share for label, share in kinds.items() if not label.startswith(("question", "command")))
+        if sum(questions.values()) > max(others):
+            likeliest = max(questions, key=lambda label: questions[label]).partition(".")[2]
+            topic, details = about(likeliest, line.sentence)
+            return line.question(topic, **details)
+    if line.users and understood.asks == "named_user":
+        reply = line.voice.say("what_of_user", users=line.voice.users(line.users))
+        return dataclasses.replace(understood, reply=reply, asks="what_of_user")
+    if understood.asks == "unclear":
+        return dataclasses.replace(understood, reply=line.voice.say("what_changes"), asks="what_changes")
+    return None
 
 
 def given_instead(line: Line, intent: Intent) -> Intent:
@@ -218,20 +223,8 @@ def given_instead(line: Line, intent: Intent) -> Intent:
         return line.question("what_if", of="channel")
     if intent.topic not in ("why_user", "users") or intent.recogniser not in (OFFLINE, NAME):
         return intent  # a language model names users itself
-    names = line.context.user_names
-    named = Anchored.of(line.text, line.voice.language, names).named(len(names))
+    named = line.anchored.named(len(line.context.user_names))
     return line.question(intent.topic, user=named[0]) if len(named) == 1 else intent
-
-
-def _without_the_aim(line: Line, understood: Intent) -> Intent | None:
-    """The same question back without the aim; None where it does not ask for it."""
-    voice = line.voice
-    if line.users and understood.asks == "named_user":
-        reply = voice.say("what_of_user", users=voice.users(line.users))
-        return dataclasses.replace(understood, reply=reply, asks="what_of_user")
-    if understood.asks == "unclear":
-        return dataclasses.replace(understood, reply=voice.say("what_changes"), asks="what_changes")
-    return None
 
 
 def only_supposed(line: Line, intent: Intent) -> Intent:
