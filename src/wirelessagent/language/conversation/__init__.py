@@ -43,17 +43,13 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     line = Line.of(with_users(text, context.called), context)
     first = OfflineRecogniser() if recogniser.is_spared else recogniser
     intent, sure = weighed(line, read_by_rules(text, context, first))
-    if _waits_for_an_aim(context) and intent.kind == "clarify":
+    question = context.question
+    aimless = question.pending and not (context.objective or question.objective or question.users)
+    if aimless and intent.kind == "clarify":  # limits were said, and nothing is open but their aim
         return _beside_what_waits(line, intent, recogniser)
     if first is recogniser:
         return intent
     return dataclasses.replace(intent, recogniser=NAME) if sure else read_by_rules(text, context, recogniser)
-
-
-def _waits_for_an_aim(context: Context) -> bool:
-    """Whether limits were said, and nothing is open but their aim."""
-    question = context.question
-    return bool(question.pending) and not (context.objective or question.objective or question.users)
 
 
 def _beside_what_waits(line: Line, intent: Intent, recogniser: Recogniser) -> Intent:

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -49,12 +49,12 @@ def form(name: str, language: str) -> tuple[re.Pattern[str], ...]:
 
 def is_all(name: str, said: str) -> re.Match[str] | None:
     """The match of a form that is all that is said."""
-    return _first(pattern.fullmatch(said) for pattern in _forms(name, said))
+    return _found(name, said, re.Pattern[str].fullmatch)
 
 
 def begins(name: str, said: str) -> re.Match[str] | None:
     """The match of a form that what is said begins with."""
-    return _first(pattern.match(said) for pattern in _forms(name, said))
+    return _found(name, said, re.Pattern[str].match)
 
 
 def has(name: str, said: str) -> re.Match[str] | None:
@@ -63,16 +63,13 @@ def has(name: str, said: str) -> re.Match[str] | None:
     >>> has("promise", "what can we promise?") is None, has("promise", "10 W") is None
     (False, True)
     """
-    return _first(pattern.search(said) for pattern in _forms(name, said))
+    return _found(name, said, re.Pattern[str].search)
 
 
-def _first(found: Iterable[re.Match[str] | None]) -> re.Match[str] | None:
+def _found(name: str, said: str, how: Callable[[re.Pattern[str], str], re.Match[str] | None]) -> re.Match[str] | None:
+    languages = ("zh",) if has_chinese(said) else _SPACED
+    found = (how(pattern, said) for language in languages for pattern in form(name, language))
     return next((match for match in found if match is not None), None)
-
-
-def _forms(name: str, said: str) -> Iterator[re.Pattern[str]]:
-    for language in ("zh",) if has_chinese(said) else _SPACED:
-        yield from form(name, language)
 
 
 @dataclass(frozen=True, kw_only=True)

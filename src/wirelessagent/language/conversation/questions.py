@@ -8,7 +8,6 @@ What an answer needs stands in the details of the question: "rank" ("least" or "
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
 
 from wirelessagent.language import moods
 from wirelessagent.language.conversation.commands import by_form
@@ -56,38 +55,30 @@ def read_question(line: Line) -> Intent | None:
         return asked
     if not line.figures and has("missing", line.said):
         return line.question("what_if", missing_share=0.0)
-    return None if line.figures else _of_what_was_measured(line) or _of_shares(line)
+    return None if line.figures else _of_the_result(line)
 
 
-def _of_what_was_measured(line: Line) -> Intent | None:
-    """Questions for the time it took, what holds the result back, and gains: "what is the SNR of user 3?"."""
+def _of_the_result(line: Line) -> Intent | None:
+    """Questions for the time it took, what holds it back, gains, and who has what.
+
+    "What is the SNR of user 3?", "who has subcarrier 5?", "which subcarriers does user 3 have?"
+    """
+    plain, count = lowered(normalise(line.text)), len(line.users)
+    user: dict[str, Detail] = {"user": line.users[0]} if line.users else {}
     if is_all("duration", line.said):
         return line.question("other", asked="duration")
-    if is_all("bottleneck", line.said) and not line.users:
+    if is_all("bottleneck", line.said) and not count:
         return line.question("other", asked="limits")
-    if not has("gain", line.wish) or not has("asks_for_gain", line.wish):
-        return None
-    place = has("on_subcarrier", lowered(normalise(line.text)))
-    if len(line.users) != 1 and place is None:
-        return None
-    where: dict[str, Detail] = {} if place is None else {"subcarrier": number_of(place["place"])}
-    return line.question("users", asked="gain", **_user(line), **where)
-
-
-def _of_shares(line: Line) -> Intent | None:
-    """Questions who has what: "who has subcarrier 5?", "which subcarriers does user 3 have?"."""
-    owner = is_all("owner", lowered(normalise(line.text)).strip().rstrip("?.。! "))
+    place = has("on_subcarrier", plain)
+    if has("gain", line.wish) and has("asks_for_gain", line.wish) and (count == 1 or place is not None):
+        where: dict[str, Detail] = {} if place is None else {"subcarrier": number_of(place["place"])}
+        return line.question("users", asked="gain", **user, **where)
+    owner = is_all("owner", plain.strip().rstrip("?.。! "))
     if owner is not None:
         return line.question("users", subcarrier=number_of(owner["place"]))
-    if len(line.users) <= 1 and is_all("listed", line.said):
-        return line.question("users", listed="subcarriers", **_user(line))
-    if len(line.users) == 1 and is_all("share_of_one", line.said):
-        return line.question("users", **_user(line))
-    return None
-
-
-def _user(line: Line) -> dict[str, Detail]:
-    return {"user": line.users[0]} if line.users else {}
+    if count <= 1 and is_all("listed", line.said):
+        return line.question("users", listed="subcarriers", **user)
+    return line.question("users", **user) if count == 1 and is_all("share_of_one", line.said) else None
 
 
 def read_needed(line: Line) -> Intent | None:
@@ -104,11 +95,8 @@ def read_needed(line: Line) -> Intent | None:
         how = {}
     else:
         return None
-    asked: dict[str, Constraint] = _read(line, _RATES)
-    further: dict[str, Detail] = {"constraints": asked} if asked else {}
-    if line.context.objective is None:
-        further["objective"] = "min_power"
-    return line.question("what_if", asked="power", **how, **further)
+    aim = "min_power" if line.context.objective is None else ""
+    return _what_if(line, asked="power", **how, constraints=_read(line, _RATES), objective=aim)
 
 
 def read_promisable(line: Line) -> Intent | None:
@@ -125,16 +113,17 @@ def read_promisable(line: Line) -> Intent | None:
         return None
     limits = _read(line, _LIMITS)
     if of_all or not line.users:
-        return _supposed_aim(line, "max_min_rate", limits, "min_rate_bps weights")
+        dropped = "min_rate_bps weights"
+        return _what_if(line, asked="most", objective="max_min_rate", dropped=dropped, constraints=limits)
     user = line.users[0]
     limits = {name: value for name, value in limits.items() if name not in ("users", "leave_out")}
-    weights: Mapping[str, float] = {EVERYBODY: 0.0, user: 1.0}
-    return _supposed_aim(line, "max_rate", {**limits, "weights": weights}, "weights", user=user)
+    limits["weights"] = {EVERYBODY: 0.0, user: 1.0}
+    return _what_if(line, asked="most", objective="max_rate", dropped="weights", constraints=limits, user=user)
 
 
-def _supposed_aim(line: Line, aim: str, limits: Mapping[str, Constraint], dropped: str, **details: Detail) -> Intent:
-    further: dict[str, Detail] = {"constraints": limits} if limits else {}
-    return line.question("what_if", asked="most", objective=aim, dropped=dropped, **further, **details)
+def _what_if(line: Line, **details: Detail) -> Intent:
+    """The question what would be, with those details that say something."""
+    return line.question("what_if", **{name: value for name, value in details.items() if value not in ("", {})})
 
 
 def _read(line: Line, names: tuple[str, ...]) -> dict[str, Constraint]:
@@ -234,14 +223,10 @@ def only_supposed(line: Line, intent: Intent) -> Intent:
         return intent
     if not supposing and not intent.constraints and not intent.dropped and not intent.acts:
         return line.question("other")  # "what's the total rate" names no aim
-    details: dict[str, Detail] = {}
-    if intent.constraints:
-        details["constraints"] = intent.constraints
-    if intent.dropped:
-        details["dropped"] = " ".join(intent.dropped)
-    if intent.objective != line.context.objective or not details:
-        details["objective"] = str(intent.objective)
-    return dataclasses.replace(line.question("what_if", **details), recogniser=intent.recogniser)
+    stays = intent.objective == line.context.objective and (intent.constraints or intent.dropped)
+    aim, dropped = "" if stays else str(intent.objective), " ".join(intent.dropped)
+    asked = _what_if(line, constraints=intent.constraints, dropped=dropped, objective=aim)
+    return dataclasses.replace(asked, recogniser=intent.recogniser)
 
 
 def is_courtesy(text: str) -> bool:

@@ -161,7 +161,8 @@ class Signs:
         self._whole = _hashes(self._of_line())
         self._padded = ["<"] * _NEAR + [*words] + [">"] * _NEAR
         self._bases = ["<"] * _NEAR + aligned(words, language) + [">"] * _NEAR
-        self._last = "+".join(sorted({_name(act) for act in possible.context.acts}))[:60]
+        acts = {f"{type(act).__name__}:{getattr(act, 'kind', '')}" for act in possible.context.acts}
+        self._last = "+".join(sorted(acts))[:60]
         self._last_kinds = {getattr(act, "kind", "") for act in possible.context.acts}
         self.together = Together(figures=len(self.anchored.figures), read=read.effect, kind=read.kind)
 
@@ -360,10 +361,6 @@ class Together:
 def _start(change: Change) -> int:
     """Where a change is said first; what has no figure and names no users is said ahead."""
     return min((anchor.start for anchor in (*change.users, change.figure) if anchor is not None), default=-1)
-
-
-def _name(act: object) -> str:
-    return f"{type(act).__name__}:{getattr(act, 'kind', '')}"
 
 
 def block_places(name: str, words: npt.NDArray[np.uint32]) -> Places:
