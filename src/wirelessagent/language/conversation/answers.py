@@ -81,11 +81,11 @@ def assent(text: str) -> Assent:
         return "other"
     said = lowered(normalise(text)).strip()
     plain = _PLAIN.sub(" ", said).strip()
-    words = re.findall(r"[^\W\d_]+(?:'[^\W\d_]+)?|\S", plain)
     match = None if _NO_ASSENT.search(said) else _all_of("apply", "mild", "yes", "polite").fullmatch(plain)
     if match is not None and (match["apply"] or match["yes"] or match["mild"]):
         return "apply" if match["apply"] else "yes" if match["yes"] else "mild"
     known, signs = _known()
+    words = re.findall(r"[^\W\d_]+(?:'[^\W\d_]+)?|\S", plain)
     speaks_of_it = all(word in known or word in "?'\"" or signs.issuperset(word) for word in words)
     return _about_applying(plain) if speaks_of_it else "other"
 

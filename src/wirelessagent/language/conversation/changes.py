@@ -14,18 +14,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from wirelessagent.language.acts import Act, Aim, Drop, Everybody, LeaveOut, Limit, Named, Others, Scale, Serve, Undo
 from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.conversation.anchors import Anchor
-from wirelessagent.language.conversation.possible import (
-    CELL,
-    LIMITS,
-    POWERS,
-    RATES,
-    Change,
-    Effect,
-    Group,
-    Possible,
-    in_its_unit,
-)
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, is_allowed
+from wirelessagent.language.conversation.possible import LIMITS, POWERS, RATES, Change, Group, Possible, in_its_unit
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS
 from wirelessagent.language.moods import named_in
 from wirelessagent.language.request import Key, acts_between, changed, with_the_assumed
 from wirelessagent.language.sentence import BUILT_IN
@@ -40,20 +30,7 @@ def changes_of(possible: Possible) -> list[Change]:
     """Each that a line may say; what can't hold, or holds already, comes to nothing."""
     sayings = (_of_figures, _of_shares, _corrected, _like_another, _of_users, _of_limits, _back_and_aims)
     found = itertools.chain.from_iterable(said(possible) for said in sayings)
-    effects = ((each, possible.effect(each.acts)) for each in found if each.acts)
-    return [
-        dataclasses.replace(each, effect=effect if _may_be(each.acts, effect) else frozenset())
-        for each, effect in effects
-    ]
-
-
-def _may_be(acts: Sequence[Act], effect: Effect) -> bool:
-    """Whether each figure that acts set is one that a limit may have, and each that they come to may hold."""
-    limits = ((act, "" if isinstance(act.whom, Named) else EVERYBODY) for act in acts if isinstance(act, Limit))
-    return all(is_allowed(limit.kind, limit.value, user=user) for limit, user in limits) and all(
-        not isinstance(value, float) or 0 < value < (1 if kind == "outage_probability" else math.inf)
-        for (kind, _), value in effect
-    )
+    return [dataclasses.replace(each, effect=possible.able_effect(each.acts)) for each in found if each.acts]
 
 
 def _of_figures(possible: Possible) -> Iterator[Change]:
@@ -81,11 +58,11 @@ def _figure_for(possible: Possible, figure: Anchor, kind: str, value: float, gro
         yield group.change([Serve(whom=group.whom), limit], "serve", kind, figure)
     if figure in possible.line.becoming or kind not in (*FIGURES_OF_USERS, *POWERS):
         return
-    held, ways = possible.figures_of(kind, group.whom), (("plus", 1), ("minus", -1))
+    held, ways = possible.limits_of(kind, group), (("plus", 1), ("minus", -1))
     if not held and kind == "max_power_w":  # the cell's, which can only become less
-        held, ways = [(group.whom, possible.context.max_power_w)], ways[1:]
+        held, ways = [Limit(kind=kind, value=possible.context.max_power_w)], ways[1:]
     for form, sign in ways if held else ():
-        sums = [Limit(kind=kind, value=figure_ + sign * value, whom=whose) for whose, figure_ in held]
+        sums = [dataclasses.replace(each, value=each.value + sign * value) for each in held]
         yield group.change(sums, form, kind, figure)
 
 
@@ -294,7 +271,7 @@ def _of_these_instead(possible: Possible, group: Group, whom: Named) -> Iterator
 def _of_limits(possible: Possible) -> Iterator[Change]:
     """Which limit is no more, and of whom."""
     for kind in LIMITS:
-        for group in possible.groups_for(kind) if kind in possible.held else [CELL]:
+        for group in possible.groups_for(kind) if kind in possible.held else [possible.cell]:
             if isinstance(group.whom, Named):
                 yield group.change(dropped(kind, group.whom, possible.figures, possible.users), "drop", kind)
                 yield group.change([Drop(kind=kind, whom=group.whom, own=True)], "drop own", kind)

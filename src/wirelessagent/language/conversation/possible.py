@@ -8,22 +8,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from wirelessagent.language.acts import (
-    Act,
-    Aim,
-    Drop,
-    Everybody,
-    Forget,
-    Limit,
-    Named,
-    Others,
-    Scale,
-    Suppose,
-    Undo,
-    Whom,
-)  # fmt: skip
+from wirelessagent.language.acts import Act, Aim, Drop, Everybody, Forget, Limit, Named, Others, Scale, Suppose, Undo
 from wirelessagent.language.conversation.anchors import Anchor, Anchored
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, is_allowed
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.request import Key, Request, assuming, changed, figures_of, numbered, with_the_assumed
@@ -73,7 +60,7 @@ class Change:
 class Group:
     """For whom a change may be."""
 
-    whom: Whom
+    whom: Everybody | Named | Others
     source: str
     anchors: tuple[Anchor, ...] = ()
 
@@ -87,10 +74,6 @@ class Group:
     ) -> Change:
         """A change for this group."""
         return Change(tuple(acts), form, kind, self.source, figure, self.anchors, model)
-
-
-CELL = Group(whom=Everybody(), source="")
-"""For whom the limits are that no user has."""
 
 
 class Possible:
@@ -114,6 +97,7 @@ class Possible:
         self.shares_power = any(_is_a_share(limit, context.max_power_w) for limit in self.last)
         self.last_kinds = {act.kind for act in self.said if isinstance(act, Limit | Scale | Drop)}
         self.named = [(users, anchors) for users, anchors in line.groups(len(self.users)) if {*users} <= {*self.users}]
+        self.cell = Group(whom=Everybody(), source="")  # for which limits are that no user has
         self.groups = list(self._whom())
 
     def effect(self, acts: Sequence[Act]) -> Effect:
@@ -127,6 +111,14 @@ class Possible:
         if not aims or aims[-1] == before:
             return difference(self.before, seen(before, assuming(before, after), self.users))
         return difference(visible(self.request, self.users), seen(aims[-1], after, self.users))
+
+    def able_effect(self, acts: Sequence[Act]) -> Effect:
+        """What acts come to; nothing where a figure is set that a limit can't have, or comes out that can't hold."""
+        limits = ((act, "" if isinstance(act.whom, Named) else EVERYBODY) for act in acts if isinstance(act, Limit))
+        effect, able = self.effect(acts), all(is_allowed(act.kind, act.value, user=user) for act, user in limits)
+        holds = all(not isinstance(value, float) or 0 < value < (1 if kind == "outage_probability" else math.inf)
+                    for (kind, _), value in effect)  # fmt: skip
+        return effect if able and holds else frozenset()
 
     def changed(self, acts: Sequence[Act]) -> dict[Key, float]:
         """The figures after acts."""
@@ -173,19 +165,19 @@ class Possible:
     def groups_for(self, kind: str, figure: Anchor | None = None) -> list[Group]:
         """For whom a limit of a kind may be changed, perhaps by a figure, which is no user then."""
         if kind not in FIGURES_OF_USERS:
-            return [CELL]
+            return [self.cell]
         return [group for group in self.groups if figure not in group.anchors]
 
-    def figures_of(self, kind: str, whom: Whom) -> Sequence[tuple[Whom, float]]:
-        """The figures that hold for somebody, each with whose it is; none where somebody named has none."""
+    def limits_of(self, kind: str, group: Group) -> list[Limit]:
+        """The limits that hold for a group, each with whose it is; none where somebody named has none."""
         common = self.figures.get((kind, EVERYBODY))
-        if isinstance(whom, Named):
-            found = [(Named((user,)), self.figures.get((kind, user), common)) for user in whom.users]
-            held = [(whose, figure) for whose, figure in found if figure]
-            return held if len(held) == len(found) else []
-        users = {user: figure for (name, user), figure in self.figures.items() if name == kind and user != EVERYBODY}
-        own = [(Named((user,)), figure) for user, figure in users.items() if figure and isinstance(whom, Everybody)]
-        return [*([(Others() if users else whom, common)] if common else []), *own]
+        own = {user: figure for (name, user), figure in self.figures.items() if name == kind and user != EVERYBODY}
+        of_each = {user: own.get(user, common) for user in group.users} or own
+        held = [Limit(kind=kind, value=figure, whom=Named((user,))) for user, figure in of_each.items() if figure]
+        if group.users:
+            return held if len(held) == len(of_each) else []
+        of_all = [Limit(kind=kind, value=common, whom=Others() if own else group.whom)] if common else []
+        return [*of_all, *(held if isinstance(group.whom, Everybody) else [])]
 
     def values(self, figure: Anchor, kind: str) -> set[float]:
         """What a figure may be worth as one of a kind; without a unit it may have that of what holds or was said."""
