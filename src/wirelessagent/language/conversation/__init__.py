@@ -10,31 +10,9 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 
-from wirelessagent.language.conversation.answers import (
-    leaves_the_question,
-    read_answer,
-    read_assent,
-    unanswered,
-    with_limits,
-)
-from wirelessagent.language.conversation.commands import (
-    beside_method,
-    by_method,
-    made_certain,
-    read_command,
-    read_method,
-    with_method,
-)
+from wirelessagent.language.conversation import answers, commands, questions
+from wirelessagent.language.conversation.answers import unanswered
 from wirelessagent.language.conversation.line import NAME, Line, called, has, only_called, with_users
-from wirelessagent.language.conversation.questions import (
-    asked_instead,
-    given_instead,
-    only_supposed,
-    read_comparison,
-    read_needed,
-    read_promisable,
-    read_question,
-)
 from wirelessagent.language.conversation.weighing import weighed
 from wirelessagent.language.guard import guarded
 from wirelessagent.language.intent import Intent, acts_of, stated
@@ -48,8 +26,8 @@ __all__ = ["NAME", "called", "unanswered", "understood", "with_users"]
 _LONGEST = 200
 """Characters of a line that may lean on the conversation; a longer one speaks for itself."""
 _READERS = (
-    read_command, read_assent, read_method, read_comparison, read_needed, read_promisable,
-    read_question, read_answer,
+    commands.read_command, answers.read_assent, commands.read_method, questions.read_comparison, questions.read_needed,
+    questions.read_promisable, questions.read_question, answers.read_answer,
 )  # fmt: skip
 """What a line may be because of its conversation, the closest first."""
 
@@ -65,17 +43,13 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     line = Line.of(with_users(text, context.called), context)
     first = OfflineRecogniser() if recogniser.is_spared else recogniser
     intent, sure = weighed(line, read_by_rules(text, context, first))
-    if _waits_for_an_aim(context) and intent.kind == "clarify":
+    question = context.question
+    aimless = question.pending and not (context.objective or question.objective or question.users)
+    if aimless and intent.kind == "clarify":  # limits were said, and nothing is open but their aim
         return _beside_what_waits(line, intent, recogniser)
     if first is recogniser:
         return intent
     return dataclasses.replace(intent, recogniser=NAME) if sure else read_by_rules(text, context, recogniser)
-
-
-def _waits_for_an_aim(context: Context) -> bool:
-    """Whether limits were said, and nothing is open but their aim."""
-    question = context.question
-    return bool(question.pending) and not (context.objective or question.objective or question.users)
 
 
 def _beside_what_waits(line: Line, intent: Intent, recogniser: Recogniser) -> Intent:
@@ -89,7 +63,7 @@ def _beside_what_waits(line: Line, intent: Intent, recogniser: Recogniser) -> In
     if found.kind != "allocate" or not found.amends or found.objective != aim or "objective" in found.evidence:
         return intent
     after, _ = applied(Request(objective=aim, constraints=pending), acts_of(found))
-    return intent if after is None else with_limits(line, None, after.constraints)
+    return intent if after is None else answers.with_limits(line, None, after.constraints)
 
 
 def read_by_rules(text: str, context: Context, recogniser: Recogniser) -> Intent:
@@ -103,28 +77,28 @@ def read_by_rules(text: str, context: Context, recogniser: Recogniser) -> Intent
     line = Line.of(text[:_LONGEST], context)
     if noted:
         return line.courtesy("called", users=", ".join(f"{name} = {number}" for name, number in noted.items()))
-    intent = made_certain(line, _read(text, line, context, recogniser), text)
-    return guarded(text, context, _keeping_what_holds(line, only_supposed(line, intent)))
+    intent = commands.made_certain(line, _read(text, line, context, recogniser), text)
+    return guarded(text, context, _keeping_what_holds(line, questions.only_supposed(line, intent)))
 
 
 def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> Intent:
     if len(text) > _LONGEST:
         return recogniser.read(text, context)
-    beside = beside_method(text)
+    beside = commands.beside_method(text)
     if beside is not None:
         rest, name = beside
-        by = with_method(line, _read(rest, Line.of(rest, context), context, recogniser), name)
+        by = commands.with_method(line, _read(rest, Line.of(rest, context), context, recogniser), name)
         if by is not None:
             return by
     for read in _READERS:
         intent = read(line)
         if intent is not None:
             return intent
-    if leaves_the_question(line):
+    if answers.leaves_the_question(line):
         context = dataclasses.replace(context, awaits="nothing", question=Question())
     intent = recogniser.read(text, context)
-    read = asked_instead(line, intent) or by_method(line, intent)
-    return given_instead(line, read)
+    read = questions.asked_instead(line, intent) or commands.by_method(line, intent)
+    return questions.given_instead(line, read)
 
 
 def _keeping_what_holds(line: Line, intent: Intent) -> Intent:

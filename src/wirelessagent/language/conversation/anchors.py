@@ -15,7 +15,7 @@ from wirelessagent.language.moods import named_in
 from wirelessagent.language.numerals import Number, and_part, factors, numbers
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.request import numbered
-from wirelessagent.language.text import WORD, is_chinese, normalise, unaccented
+from wirelessagent.language.text import WORD, Span, is_chinese, normalise, overlaps, unaccented
 from wirelessagent.language.word_tables import deferred, table
 
 AnchorKind: TypeAlias = Literal[
@@ -26,7 +26,7 @@ FIGURES = ("rate", "power", "ratio", "factor", "number")
 _SCALE = re.compile(r"[kKMG](?![^\W_])")
 _DECIBEL = deferred(r"(?i)\s*(?:db(?![a-z\d])|decibel(?:io)?s?(?!\w)|dezibel(?!\w)|décibels?(?!\w)|分贝)")
 _MOST_DECIBELS = 100.0
-_SCALES = {"": 1.0, "K": 1e3, "M": 1e6, "G": 1e9}
+_SCALES = {"K": 1e3, "M": 1e6, "G": 1e9}
 _ORDINALS = {unaccented(word): place for word, place in ORDINALS.items() if word.isalpha()}
 _WITH = deferred("[跟和与]")
 _QUOTIENT = deferred(r"(?<![\d.,/])([1-9])\s?/\s?(1\d|[2-9])(?![\d/]|[.,]\d)")
@@ -104,14 +104,12 @@ class Anchored:
 
     def groups(self, most: int) -> Iterator[tuple[tuple[str, ...], tuple[Anchor, ...]]]:
         """The users who are named alone, in a list, in a range, or as two; a number up to ``most`` may be a user."""
-        for anchor in (*self.anchors, *self.others):
-            if anchor.users or _counts(anchor, most):
-                yield anchor.whom, (anchor,)
-        named = [anchor for anchor in self.anchors if anchor.users or _counts(anchor, most)]
-        for first, last in _lists(self.plain, named):
-            for begin in range(first, last):
-                for end in range(begin + 1, last + 1):
-                    yield _together(named[begin : end + 1])
+        named, parts = ([anchor for anchor in each if anchor.users or _counts(anchor, most)]
+                        for each in (self.anchors, self.others))  # fmt: skip
+        yield from ((anchor.whom, (anchor,)) for anchor in (*named, *parts))
+        for run in _lists(self.plain, named):
+            for begin, end in itertools.combinations(range(len(run)), 2):
+                yield _together(run[begin : end + 1])
         for one, other in itertools.pairwise(named):
             first, last = (int(users[0]) if users[0].isdecimal() else 0 for users in (one.whom, other.whom))
             alone = len(one.whom) == len(other.whom) == 1
@@ -136,9 +134,8 @@ def _parts(plain: str, anchor: Anchor, most: int) -> Iterator[Anchor]:
 
     A user whom the cell does not have may be a figure: "all users 700".
     """
-    digits = [
-        (found.start(), found.end(), int(found[0])) for found in _INTEGER.finditer(plain, anchor.start, anchor.end)
-    ]
+    found = _INTEGER.finditer(plain, anchor.start, anchor.end)
+    digits = [(each.start(), each.end(), int(each[0])) for each in found]
     range_of_one = anchor.kind == "users" and len(digits) == 2 and _SEVERAL.match(plain, anchor.start) is None
     if range_of_one and _RANGE.fullmatch(plain, digits[0][1], digits[1][0]):
         (_, middle, user), (start, end, value) = digits
@@ -167,22 +164,19 @@ def _together(named: Sequence[Anchor]) -> tuple[tuple[str, ...], tuple[Anchor, .
     return tuple(dict.fromkeys(user for anchor in named for user in anchor.whom)), tuple(named)
 
 
-def _lists(plain: str, named: Sequence[Anchor]) -> Iterator[tuple[int, int]]:
-    """The first and the last place of each run of users that only joints part."""
-    first = 0
-    for place in range(1, len(named) + 1):
-        if place == len(named) or JOINT.fullmatch(plain, named[place - 1].end, named[place].start) is None:
-            if place - 1 > first:
-                yield first, place - 1
-            first = place
+def _lists(plain: str, named: Sequence[Anchor]) -> list[list[Anchor]]:
+    """The runs of users that only joints part."""
+    runs = list[list[Anchor]]()
+    for anchor in named:
+        if runs and JOINT.fullmatch(plain, runs[-1][-1].end, anchor.start) is not None:
+            runs[-1].append(anchor)
+        else:
+            runs.append([anchor])
+    return runs
 
 
 def _anchors(text: str, plain: str, language: str, names: Sequence[str]) -> Iterator[Anchor]:
-    taken = list[tuple[int, int]]()
-
-    def free(start: int, end: int) -> bool:
-        return not any(first < end and start < last for first, last in taken)
-
+    taken = list[Span]()
     for figure in parse_quantities(text):
         if figure.kind in ("rate", "power", "ratio"):
             taken.append((figure.start, figure.end))
@@ -207,32 +201,27 @@ def _anchors(text: str, plain: str, language: str, names: Sequence[str]) -> Iter
     counted = [_with_its_part(low, each) for each in numbers(low, language) if each.value is not None]
     for start, end, value in found:
         part = any(first < start and end <= last and number >= 1 for first, last, number in counted)
-        value = abs(value)
-        if free(start, end) and not part:  # "two and a half"
+        if not part and not overlaps((start, end), taken):  # "two and a half"
             taken.append((start, end))
-            yield Anchor("factor", start, end, value)
+            yield Anchor("factor", start, end, abs(value))
     for each in _QUOTIENT.finditer(low):  # "3/4", or users 3 and 4
-        if free(*each.span()):
+        if not overlaps(each.span(), taken):
             yield Anchor("factor", *each.span(), int(each[1]) / int(each[2]))
     for word in _WORD.finditer(low):
         place = _ORDINALS.get(word[0])
-        if place is not None and free(*word.span()):  # "the third"
+        if place is not None and not overlaps(word.span(), taken):  # "the third"
             taken.append(word.span())
             yield Anchor("ordinal", *word.span(), users=(place,))
     for start, end, signed in counted:
-        if not free(start, end):
-            continue
-        value = abs(signed)
-        scale = _SCALE.match(plain, end)
-        decibel = _DECIBEL.match(plain, end)
-        if decibel is not None and value > _MOST_DECIBELS:
+        value, scale, decibel = abs(signed), _SCALE.match(plain, end), _DECIBEL.match(plain, end)
+        if overlaps((start, end), taken) or (decibel is not None and value > _MOST_DECIBELS):
             continue
         if decibel is not None:  # "3 dB less"
             yield Anchor("factor", start, decibel.end(), 10 ** (signed / 10))
         elif value < 1 and not low[start].isdigit():  # "a quarter"
             yield Anchor("factor", start, end, value)
         else:
-            value *= _SCALES["" if scale is None else scale[0].upper()]
+            value *= 1.0 if scale is None else _SCALES[scale[0].upper()]
             is_rate = scale is not None or value >= _LARGEST_NUMBER
             yield Anchor("rate" if is_rate else "number", start, end if scale is None else scale.end(), value)
 

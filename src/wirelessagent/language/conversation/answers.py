@@ -18,6 +18,7 @@ from typing import Literal, TypeAlias
 
 from wirelessagent.language import moods
 from wirelessagent.language.conversation.line import NAME, Line, has, is_all
+from wirelessagent.language.conversation.possible import RATES
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Intent
 from wirelessagent.language.numerals import too_many_figures
 from wirelessagent.language.recogniser import Context, Question
@@ -79,15 +80,14 @@ def assent(text: str) -> Assent:
     if len(text) > _LONGEST:
         return "other"
     said = lowered(normalise(text)).strip()
-    match = (
-        None
-        if _NO_ASSENT.search(said)
-        else _all_of("apply", "mild", "yes", "polite").fullmatch(_PLAIN.sub(" ", said).strip())
-    )
+    plain = _PLAIN.sub(" ", said).strip()
+    match = None if _NO_ASSENT.search(said) else _all_of("apply", "mild", "yes", "polite").fullmatch(plain)
     if match is not None and (match["apply"] or match["yes"] or match["mild"]):
         return "apply" if match["apply"] else "yes" if match["yes"] else "mild"
-    plain = " ".join(_PLAIN.sub(" ", said).split())
-    return _about_applying(plain) if _is_known(plain) else "other"
+    known, signs = _known()
+    words = re.findall(r"[^\W\d_]+(?:'[^\W\d_]+)?|\S", plain)
+    speaks_of_it = all(word in known or word in "?'\"" or signs.issuperset(word) for word in words)
+    return _about_applying(plain) if speaks_of_it else "other"
 
 
 def is_assent(text: str) -> bool:
@@ -102,21 +102,8 @@ def speaks_of_applying(text: str) -> bool:
 
 def read_assent(line: Line) -> Intent | None:
     """A line that is about the plan that waits for a yes and about nothing else; None for any other."""
-    if line.context.awaits != "confirmation":
-        return None
-    said = assent(line.text)
-    if said == "other":
-        return None
-    if said == "no":
-        return line.command("reject")
-    return line.command("apply" if said == "apply" else "confirm")
-
-
-def _is_known(plain: str) -> bool:
-    """Whether every word, or every Chinese sign, is one of those that speak of applying and nothing else."""
-    known, signs = _known()
-    words = re.findall(r"[^\W\d_]+(?:'[^\W\d_]+)?|\S", plain)
-    return all(word in known or word in "?'\"" or signs.issuperset(word) for word in words)
+    said = assent(line.text) if line.context.awaits == "confirmation" else "other"
+    return None if said == "other" else line.command({"no": "reject", "apply": "apply"}.get(said, "confirm"))
 
 
 def _about_applying(plain: str) -> Assent:
@@ -132,9 +119,6 @@ def _about_applying(plain: str) -> Assent:
     if condition or _either("contradicts").search(plain):
         return "doubtful"
     return "no" if _either("refused").search(plain) else "doubtful"
-
-
-_RATES = ("min_rate_bps", "max_rate_bps")
 
 
 def read_answer(line: Line) -> Intent | None:
@@ -184,7 +168,7 @@ def with_limits(line: Line, objective: str | None, limits: Mapping[str, Constrai
 
 def _users_with_rates(pending: Mapping[str, Constraint]) -> tuple[str, ...]:
     """The users of the one rate that waits; nobody where it is everybody's, or there are several."""
-    rates = [value for name, value in pending.items() if name in _RATES]
+    rates = [value for name, value in pending.items() if name in RATES]
     only = rates[0] if len(rates) == 1 else None
     return tuple(only) if isinstance(only, Mapping) and EVERYBODY not in only else ()
 
@@ -198,25 +182,19 @@ def unanswered(text: str, intent: Intent, context: Context) -> Question:
     settled = users_in(intent.pending)
     users = tuple(user for user in line.users if user not in settled)
     objective = goal.objective if goal.verdict == "clear" else None
-    offered, caps, before = intent.offered, has("cap", line.shape) is not None, context.question
-    if context.awaits != "clarification" or leaves_the_question(line):
-        return Question(pending=intent.pending, objective=objective, users=users, caps=caps, offered=offered)
-    whole = intent.recogniser == NAME and bool(intent.pending)  # what waited before is in it
-    pending = intent.pending if whole else merged(before.pending, intent.pending)
+    goes_on = context.awaits == "clarification" and not leaves_the_question(line)
+    before = context.question if goes_on else Question()
+    whole = not goes_on or (intent.recogniser == NAME and bool(intent.pending))  # what waited before is in it
     return Question(
-        pending=pending, objective=objective or before.objective, users=users or before.users,
-        caps=caps or before.caps, offered=offered,
+        pending=intent.pending if whole else merged(before.pending, intent.pending), offered=intent.offered,
+        objective=objective or before.objective, users=users or before.users,
+        caps=before.caps or has("cap", line.shape) is not None,
     )  # fmt: skip
 
 
 def leaves_the_question(line: Line) -> bool:
     """Whether a line is no answer: it only reports, or speaks of other users than the question back was about."""
-    asked = line.context.question.users
-    return is_report(line) or (bool(asked and line.users) and not set(asked) & set(line.users))
-
-
-def is_report(line: Line) -> bool:
-    """Whether a line only states what was or what somebody says, with no word that asks for anything."""
-    said = line.shape
+    asked, said = line.context.question.users, line.shape
     tells = has("past", said) or (has("reported", said) and has("states", said))
-    return tells is not None and not has("directs", said)
+    reports = tells is not None and not has("directs", said)
+    return reports or (bool(asked and line.users) and not set(asked) & set(line.users))

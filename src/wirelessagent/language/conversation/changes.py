@@ -14,17 +14,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from wirelessagent.language.acts import Act, Aim, Drop, Everybody, LeaveOut, Limit, Named, Others, Scale, Serve, Undo
 from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.conversation.anchors import Anchor
-from wirelessagent.language.conversation.possible import (
-    OF_THE_CELL,
-    POWERS,
-    RATES,
-    Change,
-    Effect,
-    Group,
-    Possible,
-    in_its_unit,
-)
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, is_allowed
+from wirelessagent.language.conversation.possible import LIMITS, POWERS, RATES, Change, Group, Possible, in_its_unit
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS
 from wirelessagent.language.moods import named_in
 from wirelessagent.language.request import Key, acts_between, changed, with_the_assumed
 from wirelessagent.language.sentence import BUILT_IN
@@ -39,43 +30,23 @@ def changes_of(possible: Possible) -> list[Change]:
     """Each that a line may say; what can't hold, or holds already, comes to nothing."""
     sayings = (_of_figures, _of_shares, _corrected, _like_another, _of_users, _of_limits, _back_and_aims)
     found = itertools.chain.from_iterable(said(possible) for said in sayings)
-    effects = ((each, possible.effect(each.acts)) for each in found if each.acts)
-    return [
-        dataclasses.replace(each, effect=effect if _may_be(each.acts, effect) else frozenset())
-        for each, effect in effects
-    ]
-
-
-def _may_be(acts: Sequence[Act], effect: Effect) -> bool:
-    """Whether each figure that acts set is one that a limit may have, and each that they come to may hold."""
-    limits = ((act, "" if isinstance(act.whom, Named) else EVERYBODY) for act in acts if isinstance(act, Limit))
-    return all(is_allowed(limit.kind, limit.value, user=user) for limit, user in limits) and all(
-        not isinstance(value, float) or 0 < value < (1 if kind == "outage_probability" else math.inf)
-        for (kind, _), value in effect
-    )
+    return [dataclasses.replace(each, effect=possible.able_effect(each.acts)) for each in found if each.acts]
 
 
 def _of_figures(possible: Possible) -> Iterator[Change]:
     """By figures of the line: set, or so much more or less than what holds."""
-    for figure in possible.line.figures:
-        for kind in FIGURES_OF_USERS:
-            for value in possible.values(figure, kind):
-                for group in possible.groups:
-                    if figure not in group.anchors:
-                        yield from _figure_for(possible, figure, kind, value, group)
-        for kind in OF_THE_CELL:
-            for value in possible.values(figure, kind):
-                yield from _figure_of_the_cell(possible, figure, kind, value)
+    for figure, kind in itertools.product(possible.line.figures, LIMITS):
+        for value, group in itertools.product(possible.values(figure, kind), possible.groups_for(kind, figure)):
+            yield from _figure_for(possible, figure, kind, value, group)
     yield from _respectively(possible)
-    for limit in possible.last:  # "one more"
+    for limit in possible.last:
         one = in_its_unit(1.0, limit)
-        for form, value in (("one more", limit.value + one), ("one less", limit.value - one)):
-            if one and value > 0:
-                yield Change((dataclasses.replace(limit, value=value),), form, limit.kind, "last")
-        for form, factor in (("in thousands", 1e3), ("in thousandths", 1e-3)):  # "kilobits, sorry"
-            if limit.kind in (*RATES, *POWERS):
-                again = dataclasses.replace(limit, value=limit.value * factor)
-                yield Change((again,), form, limit.kind, "last")
+        ways = [("one more", limit.value + one), ("one less", limit.value - one)] if one else []
+        ways = [(form, value) for form, value in ways if value > 0]
+        if limit.kind in (*RATES, *POWERS):  # "kilobits, sorry"
+            ways += [("in thousands", limit.value * 1e3), ("in thousandths", limit.value * 1e-3)]
+        for form, value in ways:
+            yield Change((dataclasses.replace(limit, value=value),), form, limit.kind, "last")
 
 
 def _figure_for(possible: Possible, figure: Anchor, kind: str, value: float, group: Group) -> Iterator[Change]:
@@ -85,27 +56,14 @@ def _figure_for(possible: Possible, figure: Anchor, kind: str, value: float, gro
         yield group.change([limit], "set", kind, figure)
     if {*group.users} & {*possible.out}:
         yield group.change([Serve(whom=group.whom), limit], "serve", kind, figure)
-    if kind not in possible.held or figure in possible.line.becoming:
+    if figure in possible.line.becoming or kind not in (*FIGURES_OF_USERS, *POWERS):
         return
-    for form, sign in (("plus", 1), ("minus", -1)):
-        sums = [(whose, held + sign * value) for whose, held in possible.figures_of(kind, group.whom)]
-        if sums:
-            yield group.change([Limit(kind=kind, value=sum_, whom=whose) for whose, sum_ in sums], form, kind, figure)
-
-
-def _figure_of_the_cell(possible: Possible, figure: Anchor, kind: str, value: float) -> Iterator[Change]:
-    """The same of a limit that no user has."""
-    held = possible.figures.get((kind, EVERYBODY))
-    sums = list[tuple[str, float]]()
-    if not figure.is_negative:
-        sums.append(("set", value))
-    if figure not in possible.line.becoming:
-        if held is None and kind == "max_power_w":  # the cell's, which can only become less
-            sums.append(("minus", possible.context.max_power_w - value))
-        elif held is not None and kind in POWERS:
-            sums += [("plus", held + value), ("minus", held - value)]
-    for form, sum_ in sums:
-        yield Change((Limit(kind=kind, value=sum_),), form, kind, figure=figure)
+    held, ways = possible.limits_of(kind, group), (("plus", 1), ("minus", -1))
+    if not held and kind == "max_power_w":  # the cell's, which can only become less
+        held, ways = [Limit(kind=kind, value=possible.context.max_power_w)], ways[1:]
+    for form, sign in ways if held else ():
+        sums = [dataclasses.replace(each, value=each.value + sign * value) for each in held]
+        yield group.change(sums, form, kind, figure)
 
 
 def _respectively(possible: Possible) -> Iterator[Change]:
@@ -130,18 +88,16 @@ def _of_shares(possible: Possible) -> Iterator[Change]:
     kinds = [kind for kind in dict.fromkeys((*possible.held, "min_rate_bps")) if kind not in others]
     most_w = possible.figures.get(("max_power_w", EVERYBODY), math.inf)
     of_the_cell = most_w > possible.context.max_power_w  # what it may radiate at all is less than the limit
+    kinds = [kind for kind in kinds if kind != "max_power_w" or not of_the_cell]
     for figure in possible.line.figures:
         becomes = figure in possible.line.becoming
-        groups = [group for group in possible.groups if figure not in group.anchors]
+        groups = possible.groups_for(RATES[0], figure)
         for form, factor in _ways_of(figure):
             if becomes and form in ("less", "more"):
                 continue
             for kind in kinds:
-                if kind in FIGURES_OF_USERS:
-                    for group in groups:
-                        yield group.change([Scale(kind=kind, factor=factor, whom=group.whom)], form, kind, figure)
-                elif kind != "max_power_w" or not of_the_cell:
-                    yield Change((Scale(kind=kind, factor=factor),), form, kind, figure=figure)
+                for group in possible.groups_for(kind, figure):
+                    yield group.change([Scale(kind=kind, factor=factor, whom=group.whom)], form, kind, figure)
             if of_the_cell and "max_power_w" not in others:
                 limit = Limit(kind="max_power_w", value=possible.context.max_power_w * factor)
                 yield Change((limit,), form, "max_power_w", "cell", figure)
@@ -192,12 +148,17 @@ def _same_step_of_another(possible: Possible, then: Possible) -> Iterator[Change
     for kind in (*RATES, "max_power_w"):
         others = {user: step for (name, user), step in steps.items() if name != kind}
         users = {EVERYBODY: next(iter(others.values()))} if kind == "max_power_w" and len(others) == 1 else others
-        held = {user: _held(then.figures, kind, user) for user in users}
-        scaled = {(kind, user): old * users[user][1] / users[user][0] for user, old in held.items() if old}
-        moved = {(kind, user): old + users[user][1] - users[user][0] for user, old in held.items() if old}
+        held = {(kind, user): figure for user in users if (figure := _held(then.figures, kind, user))}
+        moved, scaled = _alike(held, {(kind, user): step for user, step in users.items()})
         for form, after in (("other scaled", scaled), ("other moved", moved)):
             if after and all(value > 0 for value in after.values()):
                 yield Change(acts_between(possible.figures, {**then.figures, **after}), form, kind, "last")
+
+
+def _alike(held: Mapping[Key, float], steps: Mapping[Key, tuple[float, float]]) -> tuple[dict[Key, float], ...]:
+    """Figures changed by as much, and as many times, as a step goes from one figure to another."""
+    by_much = {key: figure + steps[key][1] - steps[key][0] for key, figure in held.items()}
+    return by_much, {key: figure * steps[key][1] / steps[key][0] for key, figure in held.items()}
 
 
 def _held(figures: Mapping[Key, float], kind: str, user: str) -> float | None:
@@ -290,12 +251,10 @@ def _stepped(possible: Possible, group: Group) -> Iterator[Change]:
         if not old or not new or old == new:
             continue
         for place, base in (("too", possible.figures), ("instead", before)):
-            held = [((kind, user), _held(base, kind, user)) for user in group.users]
-            by_much = {key: figure + new - old for key, figure in held if figure}
-            by_times = {key: figure * new / old for key, figure in held if figure}
-            for form, figures in (("as much", by_much), ("as many times", by_times)):
-                if figures:
-                    yield group.change(acts_between(possible.figures, {**base, **figures}), f"{form} {place}", kind)
+            held = {(kind, user): figure for user in group.users if (figure := _held(base, kind, user))}
+            forms = zip(("as much", "as many times"), _alike(held, dict.fromkeys(held, (old, new))), strict=True)
+            for form, figures in forms if held else ():
+                yield group.change(acts_between(possible.figures, {**base, **figures}), f"{form} {place}", kind)
 
 
 def _of_these_instead(possible: Possible, group: Group, whom: Named) -> Iterator[Change]:
@@ -311,11 +270,8 @@ def _of_these_instead(possible: Possible, group: Group, whom: Named) -> Iterator
 
 def _of_limits(possible: Possible) -> Iterator[Change]:
     """Which limit is no more, and of whom."""
-    for kind in (*FIGURES_OF_USERS, *OF_THE_CELL):
-        if kind not in FIGURES_OF_USERS or kind not in possible.held:
-            yield Change((Drop(kind=kind),), "drop", kind)
-            continue
-        for group in possible.groups:
+    for kind in LIMITS:
+        for group in possible.groups_for(kind) if kind in possible.held else [possible.cell]:
             if isinstance(group.whom, Named):
                 yield group.change(dropped(kind, group.whom, possible.figures, possible.users), "drop", kind)
                 yield group.change([Drop(kind=kind, whom=group.whom, own=True)], "drop own", kind)
@@ -345,7 +301,7 @@ def _back_and_aims(possible: Possible) -> Iterator[Change]:
             yield Change((Undo(steps=steps),), form, source="said" if steps in said else "")
     for objective in BUILT_IN:
         yield Change((Aim(objective=objective),), "aim", objective)
-    for kind in (*FIGURES_OF_USERS, *OF_THE_CELL):  # a limit as it last was: "the cap holds again", "back to ten"
+    for kind in LIMITS:  # a limit as it last was: "the cap holds again", "back to ten"
         of_kind = [{key: figure for key, figure in held.items() if key[0] == kind}
                    for held in (possible.figures, *possible.past)]  # fmt: skip
         now, *earlier = of_kind
@@ -353,8 +309,8 @@ def _back_and_aims(possible: Possible) -> Iterator[Change]:
         if then is not None:
             yield Change(acts_between(now, then), "as before", kind, "held" if now else "gone")
     before = possible.past[0] if possible.past else {}
-    stepped = [(key, before[key], after) for key, after in possible.figures.items() if after and before.get(key)]
-    if any(one != other for _, one, other in stepped) and not possible.line.figures:  # the last change of figures again
-        sums, products = {k: 2 * b - a for k, a, b in stepped}, {k: b * b / a for k, a, b in stepped}
-        for form, again in (("again", sums), ("as much again", products)):
+    stepped = {key: (before[key], after) for key, after in possible.figures.items() if after and before.get(key)}
+    if any(one != other for one, other in stepped.values()) and not possible.line.figures:  # the last change again
+        figures = _alike({key: after for key, (_, after) in stepped.items()}, stepped)
+        for form, again in zip(("again", "as much again"), figures, strict=True):
             yield Change(acts_between(possible.figures, {**possible.figures, **again}), form, source="last")

@@ -17,8 +17,8 @@ from typing import Any
 
 from wirelessagent.language import moods
 from wirelessagent.language.acts import Prefer
-from wirelessagent.language.conversation.line import Line, begins, form, group, has, is_all
-from wirelessagent.language.intent import OWN_CHOICE, Detail, Intent
+from wirelessagent.language.conversation.line import Forms, Line, begins, form, has, is_all
+from wirelessagent.language.intent import COMMANDS, OWN_CHOICE, Intent
 from wirelessagent.language.number_words import cardinals
 from wirelessagent.language.offline import NAME
 from wirelessagent.language.text import lowered, normalise
@@ -37,11 +37,18 @@ _COUNTS: Mapping[str, int] = {
 _NO_REFERENCE = {word for listed in _LISTED.values() for word in listed.get("no_reference", "").split()}
 """What behind "turn" is no reference: "turn it off"."""
 _CHANGING = ("apply", "undo", "reset")
-_TAKING_BACK: Mapping[str, tuple[str, Mapping[str, Detail]]] = {
+_TAKING_BACK: Forms = {
     "all_steps": ("undo", {"steps": "all"}),
     "stop": ("reject", {"cancel": "pending", "stop": "all"}),
     "cancel": ("reject", {"cancel": "pending"}),
     "back_to_first": ("undo", {"turn": 1.0}),
+    "back_to": ("undo", {}),
+}
+_ABOUT_A_TURN: Forms = {
+    "compare_first": ("compare", {"turn": "first"}),
+    "compare_turns": ("compare", {}),
+    "explain_turn": ("explain", {}),
+    "show_turn": ("history", {}),
 }
 _LONGEST = 120
 """Characters of a line that may be nothing but a command."""
@@ -82,40 +89,36 @@ def _undone(line: Line, said: str) -> Intent | None:
     if is_all("forget", said):
         open_ = line.context.awaits != "nothing"
         return line.command("reject", cancel="pending") if open_ else line.command("reset")
-    whole = line.by_form(said, _TAKING_BACK)
+    whole = by_form(line, said, _TAKING_BACK)
     if whole is not None:
         return whole
-    match = is_all("back_to", said)
-    if match is not None:
-        return line.command("undo", turn=_named(match["turn"]))
     match = is_all("some_steps", said)
-    count = None if match is None else _number(group(match).removeprefix("a "))
-    return None if count is None or count < 1 else line.command("undo", steps=count)
+    steps = "" if match is None else _number(match["n"].removeprefix("a "))
+    return line.command("undo", steps=steps) if isinstance(steps, float) and steps >= 1 else None
 
 
 def _about_a_turn(line: Line, said: str) -> Intent | None:
-    if is_all("compare_first", said):
-        return line.command("compare", turn="first")
-    for topic, name in (("compare", "compare_turns"), ("explain", "explain_turn"), ("history", "show_turn")):
+    found = by_form(line, said, _ABOUT_A_TURN)
+    return None if found is None or found.details["turn"] in _NO_REFERENCE else found
+
+
+def by_form(line: Line, said: str, forms: Forms) -> Intent | None:
+    """The command or the question of the first form that is all that is said, with the turns that it names."""
+    for name, (topic, details) in forms.items():
         match = is_all(name, said)
-        if match is not None and match["turn"] not in _NO_REFERENCE:
-            other: dict[str, Detail] = {"beside": _named(match["beside"])} if group(match, "beside") else {}
-            return line.command(topic, turn=_named(match["turn"]), **other)
+        if match is not None:
+            turns = {each: _number(word) for each, word in match.groupdict().items() if word}
+            return (line.command if topic in COMMANDS else line.question)(topic, **details, **turns)
     return None
 
 
-def _named(word: str) -> Detail:
-    """A turn's number, or the word that should have been one."""
-    number = _number(word)
-    return word if number is None else number
-
-
-def _number(word: str) -> float | None:
+def _number(word: str) -> float | str:
+    """The number that a word is, or the word that should have been one."""
     if re.fullmatch(r"[-+]?\d+(?:\.\d+)?", word):
         return float(word)
     if re.fullmatch("[一二两三四五六七八九十]+", word):
         return number_of(word)
-    return float(_COUNTS[word]) if word in _COUNTS else None
+    return float(_COUNTS[word]) if word in _COUNTS else word
 
 
 def made_certain(line: Line, intent: Intent, text: str) -> Intent:
@@ -125,14 +128,14 @@ def made_certain(line: Line, intent: Intent, text: str) -> Intent:
     """
     if not intent.recogniser.startswith(NAME):
         return intent
-    if intent.kind == "command" and intent.topic in _CHANGING and not is_only_a_command(text):
-        return line.ask("what_changes") if _names_none(line, text) else line.ask_whether(intent.topic)
-    return line.ask("what_changes") if intent.offered in _CHANGING and _names_none(line, text) else intent
-
-
-def _names_none(line: Line, text: str) -> bool:
-    """Whether a line about a request that holds has no word that stands for a command alone."""
-    return line.context.objective is not None and has("names_a_command", lowered(normalise(text))) is None
+    topic = intent.topic if intent.kind == "command" and not is_only_a_command(text) else ""
+    if topic not in _CHANGING and intent.offered not in _CHANGING:
+        return intent
+    if line.context.objective is not None and has("names_a_command", lowered(normalise(text))) is None:
+        return line.ask("what_changes")
+    if topic not in _CHANGING:
+        return intent
+    return line.ask("unsure_command", offered=topic, text=line.voice.say(f"command.{topic}"))
 
 
 def is_only_a_command(text: str) -> bool:
@@ -148,25 +151,21 @@ def is_only_a_command(text: str) -> bool:
     said = functools.reduce(lambda rest, polite: polite.sub(" ", rest), politely, plain)
     if said == plain and (plain.endswith("?") or moods.begins_like_a_question(plain)):
         return False
-    if _denied().search(said):
+    latin, chinese, denies = _command_words()
+    if denies.search(said):
         return False
-    latin, chinese = _command_words()
     if any(word.replace("’", "'") not in latin for word in _LATIN.findall(said)):
         return False
     return not _LETTER.search(chinese.sub("", _LATIN.sub("", said)))
 
 
 @functools.cache
-def _denied() -> re.Pattern[str]:
-    return re.compile("|".join(each for listed in _LISTED.values() for each in listed.get("denies", ())))
-
-
-@functools.cache
-def _command_words() -> tuple[frozenset[str], re.Pattern[str]]:
-    """The words that commands consist of, and the Chinese ones as a pattern, the longest first."""
+def _command_words() -> tuple[frozenset[str], re.Pattern[str], re.Pattern[str]]:
+    """The words that commands consist of, the Chinese ones as a pattern, the longest first, and what denies them."""
+    denies = re.compile("|".join(each for listed in _LISTED.values() for each in listed.get("denies", ())))
     words = {language: listed["words"].split() for language, listed in _LISTED.items()}
     chinese = sorted(words.pop("zh"), key=len, reverse=True)
-    return frozenset(word for listed in words.values() for word in listed), re.compile("|".join(chinese))
+    return frozenset(itertools.chain.from_iterable(words.values())), re.compile("|".join(chinese)), denies
 
 
 def read_method(line: Line) -> Intent | None:
@@ -214,7 +213,8 @@ def beside_method(text: str) -> tuple[str, str] | None:
 def with_method(line: Line, intent: Intent, name: str) -> Intent | None:
     """A request by a method that is named beside it; None for what is neither a request nor a question back."""
     if intent.kind == "allocate":
-        return _with_method(intent, name)
+        acts = (*intent.acts, Prefer(method="" if name == OWN_CHOICE else name)) if intent.acts else ()
+        return dataclasses.replace(intent, details={**intent.details, "method": name}, acts=acts)
     if intent.kind != "clarify":
         return None
     later = line.voice.say("method_later", method_name=name)
@@ -224,9 +224,5 @@ def with_method(line: Line, intent: Intent, name: str) -> Intent | None:
 def by_method(line: Line, intent: Intent) -> Intent:
     """A request with the method that its sentence names beside it; any other intent as it is."""
     shape, name = with_tool(line.shape, "method")
-    return _with_method(intent, name) if intent.kind == "allocate" and name and has("with_method", shape) else intent
-
-
-def _with_method(intent: Intent, name: str) -> Intent:
-    acts = (*intent.acts, Prefer(method="" if name == OWN_CHOICE else name)) if intent.acts else ()
-    return dataclasses.replace(intent, details={**intent.details, "method": name}, acts=acts)
+    requests = intent.kind == "allocate" and name and has("with_method", shape)
+    return (with_method(line, intent, name) if requests else None) or intent

@@ -13,21 +13,25 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
+from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.guard import READ_IN_A_TALK
-from wirelessagent.language.intent import COMMANDS, Constraint, Detail, Intent
+from wirelessagent.language.intent import Constraint, Detail, Intent
 from wirelessagent.language.mentions import mentions
+from wirelessagent.language.moods import without
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.replies import Answer, Voice
 from wirelessagent.language.sentence import Sentence, labels_of, own_words, read_once
-from wirelessagent.language.text import has_chinese, normalise, replaced
+from wirelessagent.language.text import Span, has_chinese, normalise, overlaps, replaced
 from wirelessagent.language.vocabulary import language_in_a_talk, language_of, languages_of
 from wirelessagent.language.word_tables import deferred, languages_with, table, words_of, written
 
+Forms: TypeAlias = Mapping[str, tuple[str, Mapping[str, Detail]]]
+"""What lines ask or order by their forms: a topic, and its details."""
 NAME = READ_IN_A_TALK
 _ASKED = deferred(r"[?？]\s*$|[呢吗]\s*[?？]?\s*$")
 _AHEAD, _BEHIND = ("|".join(words_of("talk_forms", "sentences", name)) for name in ("polite_ahead", "polite_behind"))
@@ -45,12 +49,12 @@ def form(name: str, language: str) -> tuple[re.Pattern[str], ...]:
 
 def is_all(name: str, said: str) -> re.Match[str] | None:
     """The match of a form that is all that is said."""
-    return _first(pattern.fullmatch(said) for pattern in _forms(name, said))
+    return _found(name, said, re.Pattern[str].fullmatch)
 
 
 def begins(name: str, said: str) -> re.Match[str] | None:
     """The match of a form that what is said begins with."""
-    return _first(pattern.match(said) for pattern in _forms(name, said))
+    return _found(name, said, re.Pattern[str].match)
 
 
 def has(name: str, said: str) -> re.Match[str] | None:
@@ -59,22 +63,13 @@ def has(name: str, said: str) -> re.Match[str] | None:
     >>> has("promise", "what can we promise?") is None, has("promise", "10 W") is None
     (False, True)
     """
-    return _first(pattern.search(said) for pattern in _forms(name, said))
+    return _found(name, said, re.Pattern[str].search)
 
 
-def _first(found: Iterable[re.Match[str] | None]) -> re.Match[str] | None:
+def _found(name: str, said: str, how: Callable[[re.Pattern[str], str], re.Match[str] | None]) -> re.Match[str] | None:
+    languages = ("zh",) if has_chinese(said) else _SPACED
+    found = (how(pattern, said) for language in languages for pattern in form(name, language))
     return next((match for match in found if match is not None), None)
-
-
-def _forms(name: str, said: str) -> Iterator[re.Pattern[str]]:
-    for language in ("zh",) if has_chinese(said) else _SPACED:
-        yield from form(name, language)
-
-
-def group(match: re.Match[str], *names: str) -> str:
-    """What the first of these groups, or of all, that took part holds; "" where none did."""
-    groups = match.groupdict()
-    return next((groups[name] for name in names or groups if groups.get(name)), "")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -126,6 +121,11 @@ class Line:
         return _ASKED.search(self.text) is not None
 
     @property
+    def anchored(self) -> Anchored:
+        """The line as its figures and its users with the words between."""
+        return Anchored.of(self.text, self.voice.language, self.context.user_names)
+
+    @property
     def sentence(self) -> Sentence:
         """The line as those who read sentences see it."""
         return read_once(self.text, own_words(), self.context)
@@ -145,13 +145,6 @@ class Line:
     def question(self, topic: str, **details: Detail) -> Intent:
         return self._answer.question(topic, details, 1.0)
 
-    def by_form(self, said: str, forms: Mapping[str, tuple[str, Mapping[str, Detail]]]) -> Intent | None:
-        """The command or the question, by its topic and its details, of the first form that is all that is said."""
-        for name, (topic, details) in forms.items():
-            if is_all(name, said):
-                return self.command(topic, **details) if topic in COMMANDS else self.question(topic, **details)
-        return None
-
     def courtesy(self, key: str, /, **names: str) -> Intent:
         """Words that ask for nothing, answered in kind."""
         return self._answer.out_of_scope(key, 1.0, **names)
@@ -160,17 +153,14 @@ class Line:
         """A question back, whose answer may use what is pending."""
         return self._answer.ask(key, 1.0, pending, **names)
 
-    def ask_whether(self, topic: str) -> Intent:
-        """The question of yes or no whether a command was meant."""
-        return self._answer.ask("unsure_command", 1.0, offered=topic, text=self.voice.say(f"command.{topic}"))
-
     @property
     def _answer(self) -> Answer:
         """Intents of the conversation, which are certain."""
         return Answer(self.voice, NAME)
 
 
-Span = tuple[int, int]
+def _nicknames(language: str) -> Mapping[str, Any]:
+    return table("talk_forms", language)["nicknames"]
 
 
 def called(texts: Sequence[str]) -> Mapping[str, str]:
@@ -189,15 +179,14 @@ def with_users(text: str, names: Mapping[str, str]) -> str:
     'user 3 needs 2 Mbit/s'
     """
     plain, language = normalise(text), language_of(text)
-    given = _given(plain)
+    given, words = _given(plain), _nicknames(language)
     known = {**names, **{name: number for _, name, number in given}}
-    kept = [span for span, *_ in given]
     spans = [
-        (*match.span(), _user(match["before"], number, language))
+        (*match.span(), words["before"].get((match["before"] or "").lower(), words["user"]) + number)
         for name, number in known.items()
         if name in plain.lower()
         for match in _called(name, language).finditer(plain)
-        if not any(first < match.end() and match.start() < last for first, last in kept)
+        if not overlaps(match.span(), (span for span, *_ in given))
     ]
     return replaced(text, sorted(spans))
 
@@ -212,8 +201,7 @@ def only_called(text: str) -> Mapping[str, str]:
     given = _given(plain)
     rest = "".join(" " if any(a <= at < b for (a, b), *_ in given) else sign for at, sign in enumerate(plain))
     for language in languages_of(text) if given else ():
-        for words in table("talk_forms", language)["nicknames"]["aside"]:
-            rest = re.sub(rf"(?i)(?<![^\W_]){re.escape(words)}(?![^\W_])", "", rest)
+        rest = without(_nicknames(language)["aside"], rest)
     return {} if any(map(str.isalnum, rest)) else {name: number for _, name, number in given}
 
 
@@ -232,26 +220,22 @@ def _given(plain: str) -> tuple[tuple[Span, str, str], ...]:
 
 def _names_somebody(name: str, language: str) -> bool:
     """Whether words are no words of a request or of talking: "the slowest", "the others", "the one" name nobody."""
-    never = set(table("talk_forms", language)["nicknames"]["never"].split())
+    never = set(_nicknames(language)["never"].split())
     return not (never.intersection((name, *name.split())) or Sentence(name, own_words()).concepts or mentions(name))
 
 
 @functools.cache
 def _patterns(language: str) -> tuple[re.Pattern[str], ...]:
-    given = table("talk_forms", language)["nicknames"]["given"]
-    return tuple(re.compile(written("talk_forms", language, pattern), re.IGNORECASE) for pattern in given)
+    given = (written("talk_forms", language, pattern) for pattern in _nicknames(language)["given"])
+    return tuple(re.compile(pattern, re.IGNORECASE) for pattern in given)
 
 
 @functools.lru_cache(maxsize=256)
 def _called(name: str, language: str) -> re.Pattern[str]:
     """A name with the words before it that belong to it, in any case of its language."""
-    words = table("talk_forms", language)["nicknames"]
+    words = _nicknames(language)
     leading: Mapping[str, str] = words["before"]
     before = "|".join(sorted(map(re.escape, leading), key=len, reverse=True))
-    edge = "" if language == "zh" else r"(?<![^\W_])", "" if language == "zh" else rf"(?:{words['endings']})?(?![^\W_])"
-    return re.compile(rf"{edge[0]}(?P<before>(?:{before}))?{re.escape(name)}{edge[1]}", re.IGNORECASE)
-
-
-def _user(before: str | None, number: str, language: str) -> str:
-    words = table("talk_forms", language)["nicknames"]
-    return words["before"].get((before or "").lower(), words["user"]) + number
+    said = rf"(?P<before>(?:{before}))?{re.escape(name)}"
+    whole = said if language == "zh" else rf"(?<![^\W_]){said}(?:{words['endings']})?(?![^\W_])"
+    return re.compile(whole, re.IGNORECASE)

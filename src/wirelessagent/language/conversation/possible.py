@@ -8,37 +8,16 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from wirelessagent.language.acts import (
-    Act,
-    Aim,
-    Drop,
-    Everybody,
-    Forget,
-    Limit,
-    Named,
-    Others,
-    Scale,
-    Suppose,
-    Undo,
-    Whom,
-)  # fmt: skip
+from wirelessagent.language.acts import Act, Aim, Drop, Everybody, Forget, Limit, Named, Others, Scale, Suppose, Undo
 from wirelessagent.language.conversation.anchors import Anchor, Anchored
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, is_allowed
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.recogniser import Context
-from wirelessagent.language.request import (
-    Key,
-    Request,
-    assuming,
-    changed,
-    figures_of,
-    numbered,
-    with_the_assumed,
-)  # fmt: skip
+from wirelessagent.language.request import Key, Request, assuming, changed, figures_of, numbered, with_the_assumed
 from wirelessagent.model.units import human
 
 RATES, POWERS = ("min_rate_bps", "max_rate_bps"), ("max_power_w", "subcarrier_max_power_w", "circuit_power_w")
-OF_THE_CELL = (*POWERS, "outage_probability", "resource_block_group_size")
+LIMITS = (*FIGURES_OF_USERS, *POWERS, "outage_probability", "resource_block_group_size")
 _FEW, _EARLIER, _LISTED = 20.0, 2, 4
 _WITH_UNIT = ("rate", "power")
 _NUMBER = re.compile(r"^[-+\d.,\s]+")
@@ -81,7 +60,7 @@ class Change:
 class Group:
     """For whom a change may be."""
 
-    whom: Whom
+    whom: Everybody | Named | Others
     source: str
     anchors: tuple[Anchor, ...] = ()
 
@@ -108,7 +87,7 @@ class Possible:
         self.figures = figures_of(held)
         self.request = None if aim is None else Request(objective=aim, constraints=held)
         self.before = visible(self.request, self.users, assumed=True)
-        self.held = [kind for kind in (*FIGURES_OF_USERS, *OF_THE_CELL) if kind in context.constraints]
+        self.held = [kind for kind in LIMITS if kind in context.constraints]
         self.out = tuple(user for user in self.users if (OUT, user) in self.before)
         self.supposed = tuple(act for one in context.acts if isinstance(one, Suppose) for act in one.acts)
         self.said = self.supposed or context.acts
@@ -118,6 +97,7 @@ class Possible:
         self.shares_power = any(_is_a_share(limit, context.max_power_w) for limit in self.last)
         self.last_kinds = {act.kind for act in self.said if isinstance(act, Limit | Scale | Drop)}
         self.named = [(users, anchors) for users, anchors in line.groups(len(self.users)) if {*users} <= {*self.users}]
+        self.cell = Group(whom=Everybody(), source="")  # for which limits are that no user has
         self.groups = list(self._whom())
 
     def effect(self, acts: Sequence[Act]) -> Effect:
@@ -132,19 +112,26 @@ class Possible:
             return difference(self.before, seen(before, assuming(before, after), self.users))
         return difference(visible(self.request, self.users), seen(aims[-1], after, self.users))
 
+    def able_effect(self, acts: Sequence[Act]) -> Effect:
+        """What acts come to; nothing where a figure is set that a limit can't have, or comes out that can't hold."""
+        limits = ((act, "" if isinstance(act.whom, Named) else EVERYBODY) for act in acts if isinstance(act, Limit))
+        effect, able = self.effect(acts), all(is_allowed(act.kind, act.value, user=user) for act, user in limits)
+        holds = all(not isinstance(value, float) or 0 < value < (1 if kind == "outage_probability" else math.inf)
+                    for (kind, _), value in effect)  # fmt: skip
+        return effect if able and holds else frozenset()
+
     def changed(self, acts: Sequence[Act]) -> dict[Key, float]:
         """The figures after acts."""
         return changed(self.figures, acts)
 
     def _whom(self) -> Iterator[Group]:
-        seen = set[frozenset[str]]()
-        named = list[tuple[tuple[str, ...], str, tuple[Anchor, ...]]]()
+        seen, named = set[frozenset[str]](), list[Group]()
 
         def add(users: Iterable[str], source: str, anchors: tuple[Anchor, ...] = ()) -> None:
             found = tuple(users)
             if found and {*found} <= {*self.users} and (anchors or frozenset(found) not in seen):
                 seen.add(frozenset(found))
-                named.append((found, source, anchors))
+                named.append(Group(whom=Named(found), source=source, anchors=anchors))
 
         for users, anchors in self.named:
             add(users, "named", anchors)
@@ -160,8 +147,9 @@ class Possible:
             own = tuple(user for name, user in self.figures if name == kind and user != EVERYBODY)
             if 1 < len(own) <= _LISTED:  # "both", "those three"
                 add(own, f"own {len(own)}")
-        for users, source, anchors in list(named):
-            add((user for user in self.users if user not in (*users, *self.out)), f"not:{source}", anchors)
+        for group in list(named):
+            apart = (user for user in self.users if user not in (*group.users, *self.out))
+            add(apart, f"not:{group.source}", group.anchors)
         for kind in FIGURES_OF_USERS:
             alike = dict[float | str | None, list[str]]()
             for user in self.users:
@@ -170,21 +158,26 @@ class Possible:
                 size = "none" if figure is None else "most" if 2 * len(users) > len(self.users) else "few"
                 add(users, f"alike:{size}")
         add(self.out, "out")
-        for users, source, anchors in named:
-            if len(users) < len(self.users):
-                yield Group(whom=Named(users), source=source, anchors=anchors)
+        yield from (group for group in named if len(group.users) < len(self.users))
         for kind, whom in (("others", Others()), ("everybody", Everybody())):
             yield Group(whom=whom, source=kind, anchors=tuple(a for a in self.line.anchors if a.kind == kind))
 
-    def figures_of(self, kind: str, whom: Whom) -> list[tuple[Whom, float]]:
-        """The figures that hold for somebody, each with whose it is; none where somebody named has none."""
+    def groups_for(self, kind: str, figure: Anchor | None = None) -> list[Group]:
+        """For whom a limit of a kind may be changed, perhaps by a figure, which is no user then."""
+        if kind not in FIGURES_OF_USERS:
+            return [self.cell]
+        return [group for group in self.groups if figure not in group.anchors]
+
+    def limits_of(self, kind: str, group: Group) -> list[Limit]:
+        """The limits that hold for a group, each with whose it is; none where somebody named has none."""
         common = self.figures.get((kind, EVERYBODY))
-        if isinstance(whom, Named):
-            found = [(Named((user,)), self.figures.get((kind, user), common)) for user in whom.users]
-            return [(whose, figure) for whose, figure in found if figure] if all(f for _, f in found) else []
-        users = {user: figure for (name, user), figure in self.figures.items() if name == kind and user != EVERYBODY}
-        own = [(Named((user,)), figure) for user, figure in users.items() if figure and isinstance(whom, Everybody)]
-        return [*([(Others() if users else whom, common)] if common else []), *own]
+        own = {user: figure for (name, user), figure in self.figures.items() if name == kind and user != EVERYBODY}
+        of_each = {user: own.get(user, common) for user in group.users} or own
+        held = [Limit(kind=kind, value=figure, whom=Named((user,))) for user, figure in of_each.items() if figure]
+        if group.users:
+            return held if len(held) == len(of_each) else []
+        of_all = [Limit(kind=kind, value=common, whom=Others() if own else group.whom)] if common else []
+        return [*of_all, *(held if isinstance(group.whom, Everybody) else [])]
 
     def values(self, figure: Anchor, kind: str) -> set[float]:
         """What a figure may be worth as one of a kind; without a unit it may have that of what holds or was said."""

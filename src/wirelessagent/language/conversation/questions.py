@@ -8,11 +8,10 @@ What an answer needs stands in the details of the question: "rank" ("least" or "
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
 
 from wirelessagent.language import moods
-from wirelessagent.language.conversation.anchors import Anchored
-from wirelessagent.language.conversation.line import NAME, Line, begins, group, has, is_all
+from wirelessagent.language.conversation.commands import by_form
+from wirelessagent.language.conversation.line import NAME, Forms, Line, begins, has, is_all
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.moods import places, table_of
 from wirelessagent.language.offline import NAME as OFFLINE
@@ -22,7 +21,9 @@ from wirelessagent.language.text import lowered, normalise
 from wirelessagent.language.topics import about, number_of, tools_named
 from wirelessagent.language.vocabulary import languages_of
 
-_ASKED: Mapping[str, tuple[str, Mapping[str, Detail]]] = {
+_ASKED_EVER: Forms = {"in_force": ("status", {}), "turn_said": ("history", {})}
+"""What is asked whether a request holds or not."""
+_ASKED: Forms = {
     "why_not": ("why_infeasible", {}),
     "channel": ("uncertainty", {}),
     "how_sure": ("uncertainty", {}),
@@ -46,50 +47,38 @@ def read_question(line: Line) -> Intent | None:
     """The question that a line is as a whole; None for any other line."""
     if is_all("thanks", line.shape.rstrip(".!。~ ")):
         return line.courtesy("welcome")
-    if is_all("in_force", line.said):
-        return line.command("status")
-    match = is_all("turn_said", line.said)
-    if match is not None:
-        return line.command("history", turn=float(group(match)))
-    if line.context.objective is None:
-        return None
-    asked = line.by_form(line.said, _ASKED)
+    asked = by_form(line, line.said, _ASKED_EVER)
+    if asked is not None or line.context.objective is None:
+        return asked
+    asked = by_form(line, line.said, _ASKED)
     if asked is not None:
         return asked
     if not line.figures and has("missing", line.said):
         return line.question("what_if", missing_share=0.0)
-    return None if line.figures else _of_what_was_measured(line) or _of_shares(line)
+    return None if line.figures else _of_the_result(line)
 
 
-def _of_what_was_measured(line: Line) -> Intent | None:
-    """Questions for the time it took, what holds the result back, and gains: "what is the SNR of user 3?"."""
+def _of_the_result(line: Line) -> Intent | None:
+    """Questions for the time it took, what holds it back, gains, and who has what.
+
+    "What is the SNR of user 3?", "who has subcarrier 5?", "which subcarriers does user 3 have?"
+    """
+    plain, count = lowered(normalise(line.text)), len(line.users)
+    user: dict[str, Detail] = {"user": line.users[0]} if line.users else {}
     if is_all("duration", line.said):
         return line.question("other", asked="duration")
-    if is_all("bottleneck", line.said) and not line.users:
+    if is_all("bottleneck", line.said) and not count:
         return line.question("other", asked="limits")
-    if not has("gain", line.wish) or not has("asks_for_gain", line.wish):
-        return None
-    place = has("on_subcarrier", lowered(normalise(line.text)))
-    if len(line.users) != 1 and place is None:
-        return None
-    where: dict[str, Detail] = {} if place is None else {"subcarrier": number_of(place["place"])}
-    return line.question("users", asked="gain", **_user(line), **where)
-
-
-def _of_shares(line: Line) -> Intent | None:
-    """Questions who has what: "who has subcarrier 5?", "which subcarriers does user 3 have?"."""
-    owner = is_all("owner", lowered(normalise(line.text)).strip().rstrip("?.。! "))
+    place = has("on_subcarrier", plain)
+    if has("gain", line.wish) and has("asks_for_gain", line.wish) and (count == 1 or place is not None):
+        where: dict[str, Detail] = {} if place is None else {"subcarrier": number_of(place["place"])}
+        return line.question("users", asked="gain", **user, **where)
+    owner = is_all("owner", plain.strip().rstrip("?.。! "))
     if owner is not None:
         return line.question("users", subcarrier=number_of(owner["place"]))
-    if len(line.users) <= 1 and is_all("listed", line.said):
-        return line.question("users", listed="subcarriers", **_user(line))
-    if len(line.users) == 1 and is_all("share_of_one", line.said):
-        return line.question("users", **_user(line))
-    return None
-
-
-def _user(line: Line) -> dict[str, Detail]:
-    return {"user": line.users[0]} if line.users else {}
+    if count <= 1 and is_all("listed", line.said):
+        return line.question("users", listed="subcarriers", **user)
+    return line.question("users", **user) if count == 1 and is_all("share_of_one", line.said) else None
 
 
 def read_needed(line: Line) -> Intent | None:
@@ -106,11 +95,8 @@ def read_needed(line: Line) -> Intent | None:
         how = {}
     else:
         return None
-    asked: dict[str, Constraint] = _read(line, _RATES)
-    further: dict[str, Detail] = {"constraints": asked} if asked else {}
-    if line.context.objective is None:
-        further["objective"] = "min_power"
-    return line.question("what_if", asked="power", **how, **further)
+    aim = "min_power" if line.context.objective is None else ""
+    return _what_if(line, asked="power", **how, constraints=_read(line, _RATES), objective=aim)
 
 
 def read_promisable(line: Line) -> Intent | None:
@@ -127,16 +113,17 @@ def read_promisable(line: Line) -> Intent | None:
         return None
     limits = _read(line, _LIMITS)
     if of_all or not line.users:
-        return _supposed_aim(line, "max_min_rate", limits, "min_rate_bps weights")
+        dropped = "min_rate_bps weights"
+        return _what_if(line, asked="most", objective="max_min_rate", dropped=dropped, constraints=limits)
     user = line.users[0]
     limits = {name: value for name, value in limits.items() if name not in ("users", "leave_out")}
-    weights: Mapping[str, float] = {EVERYBODY: 0.0, user: 1.0}
-    return _supposed_aim(line, "max_rate", {**limits, "weights": weights}, "weights", user=user)
+    limits["weights"] = {EVERYBODY: 0.0, user: 1.0}
+    return _what_if(line, asked="most", objective="max_rate", dropped="weights", constraints=limits, user=user)
 
 
-def _supposed_aim(line: Line, aim: str, limits: Mapping[str, Constraint], dropped: str, **details: Detail) -> Intent:
-    further: dict[str, Detail] = {"constraints": limits} if limits else {}
-    return line.question("what_if", asked="most", objective=aim, dropped=dropped, **further, **details)
+def _what_if(line: Line, **details: Detail) -> Intent:
+    """The question what would be, with those details that say something."""
+    return line.question("what_if", **{name: value for name, value in details.items() if value not in ("", {})})
 
 
 def _read(line: Line, names: tuple[str, ...]) -> dict[str, Constraint]:
@@ -194,20 +181,27 @@ def _limit(line: Line, figure: Quantity) -> dict[str, Constraint]:
 
 
 def asked_instead(line: Line, understood: Intent) -> Intent | None:
-    """What to answer instead of a question back about the aim, which is known; None where that is not asked."""
+    """What to answer instead of a question back about the aim, which is known; None where that is not asked.
+
+    That is a question that the line likely asks, else the same question back without the aim.
+    """
     if line.context.objective is None or understood.kind != "clarify":
         return None
     asks = moods.is_asked(line.shape) or moods.asks_without_a_mark(line.shape) or has("asking", line.shape)
-    if understood.pending or understood.asks not in _OPEN or not asks:
-        return _without_the_aim(line, understood)
-    kinds = line.sentence.chances.kinds
-    questions = {label: share for label, share in kinds.items() if label.startswith("question")}
-    others = (share for label, share in kinds.items() if not label.startswith(("question", "command")))
-    if sum(questions.values()) <= max(others):
-        return _without_the_aim(line, understood)
-    likeliest = max(questions, key=lambda label: questions[label]).partition(".")[2]
-    topic, details = about(likeliest, line.sentence)
-    return line.question(topic, **details)
+    if asks and understood.asks in _OPEN and not understood.pending:
+        kinds = line.sentence.chances.kinds
+        questions = {label: share for label, share in kinds.items() if label.startswith("question")}
+        others = (share for label, share in kinds.items() if not label.startswith(("question", "command")))
+        if sum(questions.values()) > max(others):
+            likeliest = max(questions, key=lambda label: questions[label]).partition(".")[2]
+            topic, details = about(likeliest, line.sentence)
+            return line.question(topic, **details)
+    if line.users and understood.asks == "named_user":
+        reply = line.voice.say("what_of_user", users=line.voice.users(line.users))
+        return dataclasses.replace(understood, reply=reply, asks="what_of_user")
+    if understood.asks == "unclear":
+        return dataclasses.replace(understood, reply=line.voice.say("what_changes"), asks="what_changes")
+    return None
 
 
 def given_instead(line: Line, intent: Intent) -> Intent:
@@ -218,20 +212,8 @@ def given_instead(line: Line, intent: Intent) -> Intent:
         return line.question("what_if", of="channel")
     if intent.topic not in ("why_user", "users") or intent.recogniser not in (OFFLINE, NAME):
         return intent  # a language model names users itself
-    names = line.context.user_names
-    named = Anchored.of(line.text, line.voice.language, names).named(len(names))
+    named = line.anchored.named(len(line.context.user_names))
     return line.question(intent.topic, user=named[0]) if len(named) == 1 else intent
-
-
-def _without_the_aim(line: Line, understood: Intent) -> Intent | None:
-    """The same question back without the aim; None where it does not ask for it."""
-    voice = line.voice
-    if line.users and understood.asks == "named_user":
-        reply = voice.say("what_of_user", users=voice.users(line.users))
-        return dataclasses.replace(understood, reply=reply, asks="what_of_user")
-    if understood.asks == "unclear":
-        return dataclasses.replace(understood, reply=voice.say("what_changes"), asks="what_changes")
-    return None
 
 
 def only_supposed(line: Line, intent: Intent) -> Intent:
@@ -241,14 +223,10 @@ def only_supposed(line: Line, intent: Intent) -> Intent:
         return intent
     if not supposing and not intent.constraints and not intent.dropped and not intent.acts:
         return line.question("other")  # "what's the total rate" names no aim
-    details: dict[str, Detail] = {}
-    if intent.constraints:
-        details["constraints"] = intent.constraints
-    if intent.dropped:
-        details["dropped"] = " ".join(intent.dropped)
-    if intent.objective != line.context.objective or not details:
-        details["objective"] = str(intent.objective)
-    return dataclasses.replace(line.question("what_if", **details), recogniser=intent.recogniser)
+    stays = intent.objective == line.context.objective and (intent.constraints or intent.dropped)
+    aim, dropped = "" if stays else str(intent.objective), " ".join(intent.dropped)
+    asked = _what_if(line, constraints=intent.constraints, dropped=dropped, objective=aim)
+    return dataclasses.replace(asked, recogniser=intent.recogniser)
 
 
 def is_courtesy(text: str) -> bool:

@@ -9,7 +9,6 @@ from __future__ import annotations
 import functools
 import itertools
 import math
-import zlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -26,6 +25,7 @@ from wirelessagent.language.intent import Intent, acts_of, stated
 from wirelessagent.language.judged import first_look
 from wirelessagent.language.moods import classes_in
 from wirelessagent.language.sentence import BUILT_IN
+from wirelessagent.language.text import hashed, overlaps
 from wirelessagent.language.vocabulary import aligned, based
 
 
@@ -115,13 +115,9 @@ _SPREAD = np.uint32(2654435761)
 TOGETHER = 60
 
 
-def _hashed(sign: str) -> int:
-    return zlib.crc32(sign.encode("utf-8", "replace"))
-
-
 @functools.lru_cache(maxsize=1 << 16)
 def place_of(sign: str) -> int:
-    return _hashed(sign) % BUCKETS
+    return hashed(sign) % BUCKETS
 
 
 def level(share: float) -> int:
@@ -130,7 +126,7 @@ def level(share: float) -> int:
 
 
 def _hashes(signs: Iterable[str]) -> npt.NDArray[np.uint32]:
-    return np.unique(np.array([_hashed(sign) for sign in signs], dtype=np.uint32))
+    return np.unique(np.array([hashed(sign) for sign in signs], dtype=np.uint32))
 
 
 def relation(effect: Effect, other: Effect | None) -> str:
@@ -154,19 +150,21 @@ class Signs:
     """The signs of the changes that one line may mean."""
 
     def __init__(self, line: Line, possible: Possible, read: Read, language: str) -> None:
-        self._line, self._possible, self._read, self._anchored = line, possible, read, possible.line
-        words = self._anchored.words
+        self._line, self._possible, self._read, self.anchored = line, possible, read, possible.line
+        words = self.anchored.words
         bases = [f"B{word}" for word in based(words, language)]
         pairs = [f"{a} {b}" for a, b in itertools.pairwise(["<", *words, ">"])]
         pairs += [f"B{a} {b}" for a, b in itertools.pairwise(bases)]
-        moods = [f"M{name}" for name, _ in classes_in(self._anchored.plain)]
+        moods = [f"M{name}" for name, _ in classes_in(self.anchored.plain)]
         self._all = _hashes([*words, *bases, *pairs, *moods])
         self._single = _hashes([*words, *bases])
         self._whole = _hashes(self._of_line())
         self._padded = ["<"] * _NEAR + [*words] + [">"] * _NEAR
         self._bases = ["<"] * _NEAR + aligned(words, language) + [">"] * _NEAR
-        self._last = "+".join(sorted({_name(act) for act in possible.context.acts}))[:60]
+        acts = {f"{type(act).__name__}:{getattr(act, 'kind', '')}" for act in possible.context.acts}
+        self._last = "+".join(sorted(acts))[:60]
         self._last_kinds = {getattr(act, "kind", "") for act in possible.context.acts}
+        self.together = Together(figures=len(self.anchored.figures), read=read.effect, kind=read.kind)
 
     def plainness(self, changes: Sequence[Change], likely: float) -> tuple[bool, int, float]:
         """How plainly changes say what they come to: of those whom the line names, with few figures that change."""
@@ -181,16 +179,6 @@ class Signs:
         orders = itertools.permutations(sorted(changes, key=_start))
         together = ((order, [act for change in order for act in change.acts]) for order in orders)
         return next(([*order] for order, acts in together if not acts or self._possible.effect(acts) == effect), None)
-
-    @property
-    def anchors(self) -> tuple[Anchor, ...]:
-        """What the line names."""
-        return self._anchored.anchors
-
-    @property
-    def plain(self) -> str:
-        """The line, normalised."""
-        return self._anchored.plain
 
     def changes(self) -> list[Change]:
         """Each change that is possible, all that the readers take the line for, and last, that it is supposed."""
@@ -208,11 +196,11 @@ class Signs:
         yield f"o:{level(read.order)}"
         yield f"o:{level(read.order)}:q:{level(asked)}"
         yield f"top:{max(kinds, key=lambda kind: kinds[kind])}"
-        yield f"length:{min(len(self._anchored.words) // 3, 8)}"
+        yield f"length:{min(len(self.anchored.words) // 3, 8)}"
         yield f"aims:{level(max(kinds[aim] for aim in BUILT_IN))}"
         yield f"read:{read.kind}:{read.topic}"
-        yield f"figures:{len(self._anchored.figures)}"
-        yield "anchors:" + "+".join(anchor.kind for anchor in self._anchored.anchors)
+        yield f"figures:{len(self.anchored.figures)}"
+        yield "anchors:" + "+".join(anchor.kind for anchor in self.anchored.anchors)
 
     def blocks(self, change: Change) -> list[tuple[str, npt.NDArray[np.uint32]]]:
         """What a change does, coarse to fine, each beside the words of the line that speak of so much."""
@@ -234,12 +222,11 @@ class Signs:
     def own(self, change: Change) -> Iterator[str]:
         """The signs of one change by itself."""
         form, kind = change.form, f"{change.form}:{change.kind}"
-        whole = f"{kind}:{change.source}"
-        figure, anchors = change.figure, self._anchored.anchors
+        whole, figure = f"{kind}:{change.source}", change.figure
         said = "-" if figure is None else figure.kind
-        used = [anchor for anchor in (figure, *change.users) if anchor is not None]
-        left = [anchor for anchor in anchors if anchor.kind != "pronoun"
-                and not any(each.start < anchor.end and anchor.start < each.end for each in used)]  # fmt: skip
+        used = [(anchor.start, anchor.end) for anchor in (figure, *change.users) if anchor is not None]
+        left = [anchor for anchor in self.anchored.anchors
+                if anchor.kind != "pronoun" and not overlaps((anchor.start, anchor.end), used)]  # fmt: skip
         others = "+".join(sorted(anchor.kind for anchor in left))
         yield from (form, kind, whole, f"{whole}:{said}", f"left:{others}|{form}", f"left:{others}|{whole}")
         yield f"left:{len(left)}|{form}:{change.source}"
@@ -256,7 +243,8 @@ class Signs:
         yield f"out:{bool(self._possible.out)}|{form}:{change.source}"
         if any(self._is_of(anchor, change.kind) for anchor in left):
             yield from (f"old|{form}", f"old|{kind}")
-        if any(self._is_of_last(anchor) for anchor in left):  # "not 4, 5" behind what was said of 4
+        last_users = self._possible.last_users
+        if any(anchor.whom and {*anchor.whom} <= last_users for anchor in left):  # "not 4, 5" behind what was said of 4
             yield from (f"last left|{form}", f"last left|{whole}")
         if change.is_supposition:
             yield f"supposes:{self._read.supposes}:{bool(self._read.effect)}"
@@ -284,10 +272,6 @@ class Signs:
                         if name != "left":
                             yield f"{sign}|{whole}"
 
-    def _is_of_last(self, anchor: Anchor) -> bool:
-        """Whether an anchor names users of whom something was said last."""
-        return bool(anchor.whom) and {*anchor.whom} <= self._possible.last_users
-
     def _is_of(self, anchor: Anchor, kind: str) -> bool:
         """Whether a figure is one that holds of a kind, so that another may stand in its place."""
         if anchor.kind not in ("rate", "power", "number"):
@@ -301,9 +285,9 @@ class Signs:
 
     def _around_the_figure(self, change: Change, form: str, kind: str, said: str) -> Iterator[str]:
         figure = change.figure
-        place = None if figure is None else self._anchored.places.get(figure)
-        if figure is None or place is None:
+        if figure is None or figure not in self.anchored.places:
             return
+        place = self.anchored.places[figure]
         for step, word in self._beside(place, place):
             yield from (f"f{step}:{kind}|{word}", f"f{step}:{form}|{word}")
         padded, at = self._padded, place + _NEAR
@@ -319,20 +303,18 @@ class Signs:
         yield f"size:{size}|{kind}:{said}"
 
     def _around_the_users(self, change: Change, form: str, kind: str) -> Iterator[str]:
-        places = [self._anchored.places[anchor] for anchor in change.users if anchor in self._anchored.places]
+        places = [self.anchored.places[anchor] for anchor in change.users if anchor in self.anchored.places]
         if not places:
             return
         for step, word in self._beside(places[0], places[-1]):
             yield from (f"u{step}:{form}|{word}", f"u{step}:{kind}|{word}")
         yield f"u=:{form}|{self._padded[places[0] + _NEAR - 1]} {self._padded[places[-1] + _NEAR + 1]}"
         yield f"list:{'+'.join(anchor.kind for anchor in change.users[:_MOST])}|{form}"
-        place = None if change.figure is None else self._anchored.places.get(change.figure)
+        place = None if change.figure is None else self.anchored.places.get(change.figure)
         if place is None:
             return
         behind = places[-1] < place
-        between = (
-            self._anchored.words[places[-1] + 1 : place] if behind else self._anchored.words[place + 1 : places[0]]
-        )
+        between = self.anchored.words[places[-1] + 1 : place] if behind else self.anchored.words[place + 1 : places[0]]
         side = "behind" if behind else "ahead"
         anchors = [word for word in between if word[0] == "@"]
         yield from (f"{side}:{min(len(between), 8)}|{form}", f"{side}:{len(anchors)}|{kind}")
@@ -348,13 +330,6 @@ class Signs:
             if self._bases[place] != self._padded[place]:
                 yield step, f"B{self._bases[place]}"
 
-    @property
-    def together(self) -> Together:
-        """What several changes together are judged by."""
-        figures = len(self._anchored.figures)
-        read = self._read
-        return Together(figures=figures, read=read.effect, kind=_KINDS.index(read.kind), supposes=read.supposes)
-
 
 @dataclass(frozen=True, kw_only=True)
 class Together:
@@ -364,13 +339,11 @@ class Together:
         figures: how many the line says.
         read: what the readers of sentences would do.
         kind: of what they take the line for.
-        supposes: whether they would only suppose it.
     """
 
     figures: int
     read: Effect | None
-    kind: int
-    supposes: bool
+    kind: str
 
     def signs(self, said: Sequence[Change], effect: Effect) -> list[int]:
         """The signs of changes together, each by its number below :data:`TOGETHER`."""
@@ -379,10 +352,10 @@ class Together:
         related, some = RELATIONS.index(relation(effect, self.read)), bool(changes)
         found = [
             related, 8 + min(len(changes), 3), 12 + min(self.figures - used, 3), 16 + 4 * some + min(self.figures, 3),
-            24 + self.kind + 6 * some,
+            24 + _KINDS.index(self.kind) + 6 * some,
         ]  # fmt: skip
         found += [36 + related] if len(changes) > 1 else []
-        return found if len(said) == len(changes) else [*found, 44 + 8 * self.supposes + related]
+        return found if len(said) == len(changes) else [*found, 44 + 8 * (self.kind == "question") + related]
 
 
 def _start(change: Change) -> int:
@@ -390,12 +363,8 @@ def _start(change: Change) -> int:
     return min((anchor.start for anchor in (*change.users, change.figure) if anchor is not None), default=-1)
 
 
-def _name(act: object) -> str:
-    return f"{type(act).__name__}:{getattr(act, 'kind', '')}"
-
-
 def block_places(name: str, words: npt.NDArray[np.uint32]) -> Places:
     """The buckets of what a change does beside each word."""
-    seed = np.uint32(_hashed(name))
+    seed = np.uint32(hashed(name))
     with np.errstate(over="ignore"):
         return np.asarray((seed * _SPREAD + words) % np.uint32(BUCKETS), dtype=np.int64)

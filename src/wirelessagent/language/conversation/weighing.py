@@ -10,7 +10,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import itertools
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
@@ -29,7 +29,6 @@ from wirelessagent.language.guard import asking_whether, guarded, stranger
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.moods import classes_in, is_denied, lifted_in
 from wirelessagent.language.offline import NAME as OFFLINE
-from wirelessagent.language.recogniser import Context
 from wirelessagent.language.request import changed, constraints_of
 from wirelessagent.language.text import Span
 
@@ -38,6 +37,10 @@ BLOCK, OWN = 1.0, 0.25
 """What a sign counts: one of all the words beside what is done (over the root of how many they are), and one alone."""
 
 _IN_PAIRS, _IN_THREES = 10, 6
+
+Said: TypeAlias = tuple[bool, Effect]
+"""Whether something is only supposed, and what it comes to."""
+NOTHING: Said = (False, frozenset())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,6 +53,10 @@ class Meaning:
     places: tuple[int, ...]
     effect: Effect
     supposed: bool = False
+
+    @property
+    def said(self) -> Said:
+        return self.supposed, self.effect
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,11 +88,6 @@ class TalkModel:
             own = [place_of(sign) for sign in signs.own(change)]
             found[place] += OWN * float(self.weights[own].sum(dtype=np.int64))
         return found * self.scale
-
-
-Said: TypeAlias = tuple[bool, Effect]
-"""Whether something is only supposed, and what it comes to."""
-NOTHING: Said = (False, frozenset())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -138,33 +140,28 @@ def _go_together(one: Change, other: Change) -> bool:
     return apart and (one.figure is None or one.figure is not other.figure)
 
 
-def _lifts(named: Collection[str], changes: Iterable[Change]) -> bool:
-    """Whether changes lift no limits but those ``named``, where any is: "user 3 needs no cap" keeps the floor."""
-    kinds = {act.kind for change in changes for act in change.acts if isinstance(act, Drop)}
-    return not named or "all" in named or kinds.issubset(named)
-
-
 def weigh(signs: Signs, model: TalkModel | None = None) -> Weighed:
     """What a line means likeliest, by the model of this release or another one."""
     model, changes = model or shipped_talk_model(), signs.changes()
     scores, together = model.scores(signs, changes), signs.together
-    lifted = lifted_in(signs.plain).keys()
-    found = [each for each in meanings(changes, scores) if _lifts(lifted, [changes[place] for place in each.places])]
+    lifted = lifted_in(signs.anchored.plain).keys()
+    lifts = [{act.kind for act in change.acts if isinstance(act, Drop)} for change in changes]
+    found = [(each, [changes[place] for place in each.places]) for each in meanings(changes, scores)
+             if not lifted or "all" in lifted  # "user 3 needs no cap" keeps the floor
+             or all(lifts[place] <= lifted for place in each.places)]  # fmt: skip
     total = np.array([
-        sum(scores[place] for place in each.places)
-        + model.together[together.signs([changes[place] for place in each.places], each.effect)].sum()
-        for each in found
+        sum(scores[place] for place in each.places) + model.together[together.signs(parts, each.effect)].sum()
+        for each, parts in found
     ])  # fmt: skip
     likely = np.exp(total - total.max())
     likely /= likely.sum()
     shares = dict[Said, float]()
-    for each, share in zip(found, likely.tolist(), strict=True):
-        shares[each.supposed, each.effect] = shares.get((each.supposed, each.effect), 0.0) + share
+    for (each, _), share in zip(found, likely.tolist(), strict=True):
+        shares[each.said] = shares.get(each.said, 0.0) + share
     said = max(shares, key=lambda each: shares[each])
-    alike = {at: likely[at] for at, each in enumerate(found) if said[1] and (each.supposed, each.effect) == said}
-    ways = {at: [changes[place] for place in found[at].places] for at in alike}
-    plainest = sorted(ways, key=lambda at: signs.plainness(ways[at], alike[at]), reverse=True)
-    in_order = (signs.in_order(ways[at]) for at in plainest)
+    ways = [(parts, share) for (each, parts), share in zip(found, likely, strict=True) if said[1] and each.said == said]
+    plainest = sorted(ways, key=lambda way: signs.plainness(*way), reverse=True)
+    in_order = (signs.in_order(parts) for parts, _ in plainest)
     parts = next((way for way in in_order if way is not None), None) if said[1] else []
     if parts is None:  # one undoes what the other does
         said, parts = NOTHING, list[Change]()
@@ -172,7 +169,7 @@ def weigh(signs: Signs, model: TalkModel | None = None) -> Weighed:
     used = set[Anchor | None]()
     for change in parts:  # all that the line names, where it is what its readers make of the whole line
         whole = change.form in ("read", "guessed")
-        used.update(signs.anchors if whole else (change.figure, change.model, *change.users))
+        used.update(signs.anchored.anchors if whole else (change.figure, change.model, *change.users))
     return Weighed(acts=acts, said=said, shares=shares, used=frozenset(each for each in used if each is not None))
 
 
@@ -207,9 +204,9 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     What nobody is sure of is asked about, with the likeliest meaning for a plain yes.
     """
     context = line.context
-    if context.objective is None or _stands(line, intent, context):
+    if context.objective is None or _stands(line, intent):
         return intent, False
-    possible = Possible(Anchored.of(line.text, line.voice.language, context.user_names), context)
+    possible = Possible(line.anchored, context)
     read = Read.of(line, intent, possible)
     if read.acts and not read.effect and possible.changed(read.acts) != possible.figures:
         return intent, False  # it shows only later, such as a promise to a user who is left out
@@ -218,19 +215,22 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     if any(isinstance(getattr(act, "whom", None), Named) for act in found.acts) and stranger(line.text, context):
         return intent, False  # who is that?
     share, acts = found.shares.get(heard, 0.0), bool(read.effect) and not read.supposes
-    if not found.acts and _names_its_aim(intent) and acts and share >= NAMED:
+    request = intent.guess or intent
+    names_its_aim = request.kind == "allocate" and "objective" in request.evidence
+    if not found.acts and names_its_aim and acts and share >= NAMED:
         return intent, False
-    stays = _takes_away(found.acts) and _stays(line, possible.line.plain)
-    if not found.acts or stays or _uses_what_is_denied(possible.line, found):
+    stays = is_all("kept", line.said) or is_denied(possible.line.plain)  # "user 2's minimum stays", "don't drop it"
+    if not found.acts or (stays and _takes_away(found.acts)) or _uses_what_is_denied(possible.line, found):
         doubted = asking_whether(intent, line.voice) if share > HEARD else line.ask("what_changes")
         return (doubted if acts else intent), False
     either = sum(found.shares.get((supposed, found.said[1]), 0.0) for supposed in (False, True))
     if found.said[0] or (line.is_asked and found.share < SURE < either):  # nothing is done
         asked = not intent.details if intent.kind == "question" else line.is_asked
         sure = either > (SURER if intent.topic == "concept" else LIKELY if asked else SURE)
-        return (_supposed(line, found) if sure else intent), sure
+        supposed = dataclasses.replace(line.question("what_if"), acts=(Suppose(acts=found.acts),))
+        return (supposed if sure else intent), sure
     denied, takes = _denies(possible.line, found), _takes_away(read.acts)
-    if share >= (NAMED if _names_its_aim(intent) else SURER if denied else SURE if takes else AGREED):
+    if share >= (NAMED if names_its_aim else SURER if denied else SURE if takes else AGREED):
         return intent, found.said == heard and share >= SURE
     meant = _done(line, possible, found)
     aims = any(isinstance(act, Aim) and act.objective != context.objective for act in found.acts)
@@ -252,25 +252,18 @@ def _takes_away(acts: Iterable[Act]) -> bool:
     return any(isinstance(act, Drop | LeaveOut | Undo) for act in acts)
 
 
-def _stays(line: Line, plain: str) -> bool:
-    """Whether a line says what stays, or what is not to go: "user 2's minimum stays", "don't drop it"."""
-    return is_all("kept", line.said) is not None or is_denied(plain)
-
-
 def _denies(anchored: Anchored, found: Weighed) -> bool:
     """Whether a line says "not" of all that it names, or a figure that nothing is done with.
 
     "Don't halve it", "lift it by 2 W" as no limit at all.
     """
-    alone = [
-        span for span in _denials(anchored) if span[0] > 0 or anchored.plain[span[1] : span[1] + 1].isspace()
-    ]  # "no, 8"
+    spaced = [start > 0 or anchored.plain[end : end + 1].isspace() for start, end in _denials(anchored)]  # no "no, 8"
     bounds = any(anchor.is_bounded for anchor in anchored.anchors)  # "never more than 5 W"
     named = {anchor for anchor in anchored.anchors if anchor.kind != "pronoun"}
     corrects = bounds or not named <= found.used  # "not 7, 8"
     figures = {anchor for anchor in named if anchor.kind in _WITH_UNITS}
     idle = bool(figures) and not figures & found.used
-    return idle or (bool(alone) and not corrects)
+    return idle or (any(spaced) and not corrects)
 
 
 def _uses_what_is_denied(anchored: Anchored, found: Weighed) -> bool:
@@ -284,20 +277,14 @@ def _denials(anchored: Anchored) -> list[Span]:
     return [span for name, span in classes_in(anchored.plain) if name.partition(":")[0] in _DENYING]
 
 
-def _names_its_aim(intent: Intent) -> bool:
-    """Whether an intent, or what a question back guesses, is a request whose words name its aim."""
-    request = intent.guess or intent
-    return request.kind == "allocate" and "objective" in request.evidence
-
-
-def _stands(line: Line, intent: Intent, context: Context) -> bool:
+def _stands(line: Line, intent: Intent) -> bool:
     """Whether what is read of a line is not weighed.
 
     That is a line of closed words, a command, what names a method, a question of a certain thing, what a language model
     read, an answer to a question, a figure that can't be or that no limit holds, and words on applying a plan that
     waits ("apply it at 6 pm").
     """
-    another = intent.recogniser not in (OFFLINE, NAME)
+    context, another = line.context, intent.recogniser not in (OFFLINE, NAME)
     about_the_plan = context.awaits == "confirmation" and speaks_of_applying(line.text)
     if another or about_the_plan or "method" in intent.details:
         return True
@@ -319,17 +306,11 @@ def _is_taken_off(line: Line) -> bool:
     return bool(below) and bare and "up" not in line.sentence.concepts
 
 
-def _supposed(line: Line, found: Weighed) -> Intent:
-    """The question what would be if what is meant were done."""
-    return dataclasses.replace(line.question("what_if"), acts=(Suppose(acts=found.acts),))
-
-
 def _done(line: Line, possible: Possible, found: Weighed) -> Intent:
     """The intent of what is meant, with what it changes in words."""
     acts = found.acts
-    undone = next((act for act in acts if isinstance(act, Undo)), None)
-    if undone is not None and len(acts) == 1:
-        return line.command("undo", steps=float(undone.steps or 1))
+    if len(acts) == 1 and isinstance(acts[0], Undo):
+        return line.command("undo", steps=float(acts[0].steps or 1))
     before, after = possible.figures, possible.changed(acts)
     kinds = {kind for kind, _ in after}
     stated = constraints_of({key: figure for key, figure in after.items() if before.get(key) != figure})
