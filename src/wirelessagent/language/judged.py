@@ -187,6 +187,7 @@ _ITEMS = deferred(rf"{LISTED.pattern}|\s*[:/]\s*")  # "weights 2:1:1"
 _BESIDE = deferred(  # between the figures of users one after the other, "@" for these
     rf"(?i)(?=[^@]*@)(?:[\s,;:、\uff0c\uff1b\uff1a/&=→>()\[\]@-]|{GIVEN_TO}|{JOINT_WORDS}|{either('figures', 'users', 'given_with')})*"
 )
+_WHO = deferred(rf"(?i)\s*,?\s*{either('figures', 'users', 'relative')}[^,;.\uff0c；。]*")
 _WITH_A_JOINT = deferred(rf"(?i)(?=\s*\S)(?:{LISTED.pattern.removeprefix('(?i)')})")
 _WEIGHTS = deferred(  # what follows are weights, whatever else they may look like
     rf"(?i)(?:(?:{either('figures', 'users', 'weights')})(?:\s+(?:of|are|is|being|de|von|sind))?|"
@@ -289,6 +290,9 @@ class Judged:
         self._owned += [(self._owners_of(n.start), chances[n]["weight"]) for n in weighty]
 
     def _owners_of(self, start: int) -> Mapping[Mention | None, float]:
+        named = [each for each in self.mentions if each.role == "named" and each.end <= start]
+        if named and _WHO.fullmatch(self._look.plain, named[-1].end, start):
+            return {named[-1]: 1.0}  # "except user 5, who needs 1 Mbit/s"
         everyone = [*self.mentions, None]
         seen = self.view.owners(start, everyone)
         return likely([shipped_roles().scores("link", features)[0] for features in seen], everyone)
@@ -326,7 +330,9 @@ class Judged:
     def said_of(self, mention: Mention) -> Mapping[str, float]:
         """How likely somebody named has each role, by the words alone."""
         if mention not in self._said:
-            self._said[mention] = answers("user", self.view.user(mention))
+            said = answers("user", self.view.user(mention))
+            surely = any(owners == {mention: 1.0} for owners in self._owners.values())
+            self._said[mention] = dict.fromkeys(said, 0.0) | {"given": 1.0} if surely else said
         return self._said[mention]
 
     def user(self, mention: Mention) -> Mapping[str, float]:
@@ -335,7 +341,7 @@ class Judged:
         if self._look.unread:  # a figure that may be theirs
             return by_words
         same = [other for other in self.mentions if other == mention or not set(other.users).isdisjoint(mention.users)]
-        owning = 1 - math.prod(1 - sure * sum(chances[other] for other in same) for chances, sure in self._owned)
+        owning = 1 - math.prod(1 - sure * sum(chances.get(other, 0.0) for other in same) for chances, sure in self._owned)
         joint = {
             role: chance * (owns * owning / _OWN + (1 - owns) * (1 - owning) / (1 - _OWN))
             for role, chance in by_words.items()
@@ -346,7 +352,7 @@ class Judged:
     def owners(self, start: int, candidates: Sequence[Mention]) -> Mapping[Mention | None, float]:
         """How likely the figure at ``start`` is for each of the candidates, or, as None, for everybody."""
         chances = self._owners[start]
-        return _shares({mention: chances[mention] for mention in (*candidates, None)})
+        return _shares({mention: chances.get(mention, 0.0) for mention in (*candidates, None)})
 
 
 def _without_known(plain: str, strangers: Sequence[Span]) -> list[Span]:
