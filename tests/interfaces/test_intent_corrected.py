@@ -171,3 +171,20 @@ def test_a_unit_said_once_is_that_of_all_rates(text: str, expected: dict[str, fl
 )  # fmt: skip
 def test_a_unit_in_passing_is_no_figures_and_what_is_alike_in_passing_gives_nothing(text: str) -> None:
     assert Sentence(text, own_words()).reading.doubts
+
+
+@pytest.mark.parametrize(
+    ("said", "left"),
+    [
+        ("user 4 at least 1 Mbit/s, no, user 7 at least 1 Mbit/s, max rate", "user 7 at least 1 Mbit/s, max rate"),
+        ("用户5至少3Mbps，说错了，是用户4至少3Mbps", "用户4至少3Mbps"),
+        ("cap user one at 2 megabits no wait cap user seven at 2 megabits", "cap cap user seven at 2 megabits"),
+        ("user two counts twice er no three times", "user two counts three times"),
+        ("总功率15W，哦不对，是18W", "总功率 18W"),
+        ("Usuario 2: 1 Mbps, perdón, 1,8 Mbps como mínimo", "Usuario 2: 1,8 Mbps como mínimo"),
+        ("user 3 at least 1 Mbit/s, no service for 4, user 5 at least 1 Mbit/s",
+         "user 3 at least 1 Mbit/s, no service for 4, user 5 at least 1 Mbit/s"),
+    ],
+)  # fmt: skip
+def test_what_is_said_again_of_another_is_taken_back(said: str, left: str) -> None:
+    assert " ".join(without_corrected(said).split()) == left

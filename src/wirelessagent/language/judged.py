@@ -185,7 +185,8 @@ _ONE_OF_A_LIST = 0.3
 _MOST_WEIGHT = 10**6
 _ITEMS = deferred(rf"{LISTED.pattern}|\s*[:/]\s*")  # "weights 2:1:1"
 _BESIDE = deferred(  # between the figures of users one after the other, "@" for these
-    rf"(?i)(?=[^@]*@)(?:[\s,;:、\uff0c\uff1b\uff1a/&=→>()\[\]@-]|{GIVEN_TO}|{JOINT_WORDS}|{either('figures', 'users', 'given_with')})*"
+    rf"(?i)(?=[^@]*@)(?:[\s,;:、\uff0c\uff1b\uff1a/&=→>()\[\]@-]|"
+    rf"{GIVEN_TO}|{JOINT_WORDS}|{either('figures', 'users', 'given_with')})*"
 )
 _WHO = deferred(rf"(?i)\s*,?\s*{either('figures', 'users', 'relative')}[^,;.\uff0c；。]*")
 _WITH_A_JOINT = deferred(rf"(?i)(?=\s*\S)(?:{LISTED.pattern.removeprefix('(?i)')})")
@@ -341,7 +342,8 @@ class Judged:
         if self._look.unread:  # a figure that may be theirs
             return by_words
         same = [other for other in self.mentions if other == mention or not set(other.users).isdisjoint(mention.users)]
-        owning = 1 - math.prod(1 - sure * sum(chances.get(other, 0.0) for other in same) for chances, sure in self._owned)
+        theirs = ((sum(chances.get(other, 0.0) for other in same), sure) for chances, sure in self._owned)
+        owning = 1 - math.prod(1 - sure * share for share, sure in theirs)
         joint = {
             role: chance * (owns * owning / _OWN + (1 - owns) * (1 - owning) / (1 - _OWN))
             for role, chance in by_words.items()

@@ -313,6 +313,9 @@ _RETURN = deferred(  # what stands between a figure and the one that takes its p
     rf"(?i)(?P<tail>(?:\s*+{_TOKEN}){{0,4}}?)\s*+(?P<back>(?P<pause>{_PAUSE}*+)(?P<said>{_CORRECTS}|(?P<means>{_MEANS}))"
     rf"(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}|是))*+)\s*+)(?P<head>(?:{_TOKEN}\s*+){{0,5}}?)"
 )
+_BACK = deferred(
+    rf"(?i)(?:\s*+{_TOKEN}){{0,3}}?\s*+{_PAUSE}*+(?P<said>{_CORRECTS})(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}|是))*+)"
+)
 _BOUND_BEHIND = "|".join(either("figures", "bounds", name) for name in ("at_least_behind", "at_most_behind"))
 _ENDED = deferred(r"\s*(?:$|[,.;:!?)\uff0c\uff1b。、](?![0-9]))")
 _SURELY_A_RATE, _DENIES = 20, ("no", "non", "不", "不是")
@@ -333,7 +336,8 @@ def without_corrected(text: str) -> str:
     >>> " ".join(without_corrected("for user 3 - sorry, I mean user 5 - 1 Mbit/s").split())
     'for user 5 - 1 Mbit/s'
     """
-    for start, end, instead in _taken_back(normalise(text)):
+    plain = normalise(text)
+    for start, end, instead in (*_said_again(plain), *_taken_back(plain)):
         text = text[:start] + instead.rjust(end - start) + text[end:]
     left = _fillers(language_of(text)).sub(lambda match: " " * len(match[0]), text)
     return text if left.isspace() else left
@@ -344,6 +348,19 @@ def _fillers(language: str) -> re.Pattern[str]:
     """The sounds of a language that fill a pause and say nothing, with a comma behind."""
     words = "|".join(table("figures", language)["one"]["fillers"])
     return deferred(rf"(?i)(?<![A-Za-zÀ-ÿ'])(?:{words})(?![A-Za-zÀ-ÿ'])(?:\s*[,\uff0c])?")
+
+
+def _said_again(plain: str) -> Iterator[tuple[int, int, str]]:
+    """What is said of one user and then of another instead: "2 Mbit/s for user 4, no, wait, 2 Mbit/s for user 7"."""
+    measured = [(number, unit) for number in numbers(plain) if (unit := unit_at(plain, number.end))]
+    for (one, its), (other, unit) in itertools.pairwise(measured):
+        again = _BACK.match(plain, its.end) if one.value == other.value and its.kind == unit.kind else None
+        said = again is not None and (again["more"] or again["said"].casefold() not in _DENIES)
+        if again is not None and said and again.end() <= other.start:
+            named = list(_named(plain))
+            ahead = [each for each in named if clause_start(plain, one.start) <= each.start < one.start]
+            if ahead and any(again.end() <= each.start < other.start for each in named):
+                yield ahead[-1].start, again.end(), ""
 
 
 def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:

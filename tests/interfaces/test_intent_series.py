@@ -1,0 +1,43 @@
+"""What is said of one user after the other, of odd and even ones, and in relative clauses."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from wirelessagent.language.sentence import Sentence, own_words
+
+NAMES = tuple(f"user {number}" for number in range(1, 9))
+ODD, EVEN = ("1", "3", "5", "7"), ("2", "4", "6", "8")
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("Floors in Mbit/s: u1 0.5, u2 0.75, u3 1.25. Maximise the sum.",
+         {"min_rate_bps": {"1": 5e5, "2": 7.5e5, "3": 1.25e6}}),
+        ("Max rates: [3: 1M, 4: 2M] bit/s. Max EE.", {"max_rate_bps": {"3": 1e6, "4": 2e6}}),
+        ("le 2 plafonné à 1 Mbit/s, le 3 à 2 Mbit/s, le 4 à 3 Mbit/s ; débit cumulé maximal",
+         {"max_rate_bps": {"2": 1e6, "3": 2e6, "4": 3e6}}),
+        ("下限(kbit/s):1号100,2号200,3号300;上限(kbit/s):5号1000,6号2000。按max-min来。",
+         {"min_rate_bps": {"1": 1e5, "2": 2e5, "3": 3e5}, "max_rate_bps": {"5": 1e6, "6": 2e6}}),
+        ("Users 3 to 6 are limited to 1.8 Mbit/s each, user 1 is promised 1.8 Mbit/s; sum rate",
+         {"min_rate_bps": {"1": 1.8e6}, "max_rate_bps": dict.fromkeys("3456", 1.8e6)}),
+        ("让比特对焦耳的比值最大,单号至少400k,双号至多2M",
+         {"min_rate_bps": dict.fromkeys(ODD, 4e5), "max_rate_bps": dict.fromkeys(EVEN, 2e6)}),
+        ("Máxima eficiencia en bits por julio, sin servir a los pares.", {"leave_out": EVEN}),
+        ("Les utilisateurs impairs ont un plancher de 0,25 Mbit/s et les pairs le double ; le moins de watts émis",
+         {"min_rate_bps": {**dict.fromkeys(ODD, 2.5e5), **dict.fromkeys(EVEN, 5e5)}}),
+        ("floor 1 Mbps for all bar user 3, whose floor is 250 kbps, max rate",
+         {"min_rate_bps": {"all": 1e6, "3": 2.5e5}}),
+        ("alle mindestens 200 kbit/s, außer Nutzer 5, der bekommt 1 Mbit/s, minimale Leistung",
+         {"min_rate_bps": {"all": 2e5, "5": 1e6}}),
+        ("100 kbit/s at least for users 1 to 3, 200 for users 4 to 6, least power",
+         {"min_rate_bps": {**dict.fromkeys("123", 1e5), **dict.fromkeys("456", 2e5)}}),
+    ],
+)  # fmt: skip
+def test_each_user_has_the_figure_that_is_said_of_them(text: str, values: dict[str, Any]) -> None:
+    reading = Sentence(text, own_words(), names=NAMES).reading
+    assert not reading.doubts
+    assert {name: dict(value) if isinstance(value, dict) else value for name, value in reading.values.items()} == values
