@@ -298,7 +298,7 @@ SPOKEN, FRAMES = Path(__file__).with_name("spoken"), Path(__file__).with_name("f
 FILLED, _LONGEST, _CHOICE = 4, 60, 3_000
 """How often each frame is filled, in turns with what people said, in so many letters, and with one of so many drawn."""
 
-MILD, FRAME, TALK = 0.6, 3.0, 1.5
+MILD, FRAME, TALK = 0.6, 3.0, 0.8
 """What a sentence counts that was not written to be mistaken, a frame, and a line of a talk, beside one that was."""
 
 _LINE = deferred(r"(?:\w+\W+){4}\w|[\u3400-\u9fff]{6}")
