@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from conversations import LOSS, SCENE, SEED
+from conversations import LOSS, SCENE, SEED, PartlyScripted, means
 
 from wirelessagent.agent.session import Session
 from wirelessagent.agent.turn import Turn
@@ -178,3 +178,15 @@ def test_who_has_what_is_told_at_once(said: str, details: dict[str, Any]) -> Non
 @pytest.mark.parametrize("said", ["which subcarriers rest on repaired gains?", "who should get the most power?"])
 def test_other_questions_of_users_are_left_to_the_recogniser(said: str) -> None:
     assert not {"rank", "listed", "subcarrier"} & set(answered(said).intent.details)
+
+
+def test_weights_that_are_compared_are_no_powers() -> None:
+    sides = {f"either_{number}": {"weights": {"2": number}} for number in (1.0, 3.0)}
+    session = Session(
+        SCENE,
+        LOSS,
+        seed=SEED,
+        recogniser=PartlyScripted([("1 or 3?", means("command", topic="compare", details=sides))]),
+    )
+    turn = [session.say(line) for line in (HELD, "1 or 3?")][-1]
+    assert turn.tables[0].columns[1:] == ("1", "3")

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from datetime import datetime
@@ -28,7 +27,7 @@ from wirelessagent.telling.catalogue import Said, Table, called, lines_of
 from wirelessagent.telling.explanation import Proofs, certificate_line, explain
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.nearest import FewerUsers, MorePower, Nearest, Way, WithoutLimit, nearest
-from wirelessagent.telling.glossary import explained, figures_asked, is_of_now
+from wirelessagent.telling.glossary import explained, figures_asked, speaks_of
 from wirelessagent.telling.margins import Prices, Remedies, Steps
 from wirelessagent.telling.parts import Teller
 from wirelessagent.telling.report import Report, served_table, user_table
@@ -36,10 +35,6 @@ from wirelessagent.telling.roster import Accounts, Roster
 
 Answer = str | tuple[str, tuple[Table, ...]]
 
-_NOTHING = re.compile(
-    r"(?i)\b(?:nothing|no\s+(?:rate|service|subcarriers?|power)|not\s+(?:be(?:ing)?\s+)?served|cut\s+off|zero)\b|"
-    r"没有?(?:分到|得到|拿到)?(?:速率|服务|任何|东西)|什么[都也]没|没被?服务|一点[都也]没|为零|断"
-)
 _SAME = 1e-3
 _SHOWN = 60
 """Characters of a sentence that the history shows."""
@@ -99,7 +94,7 @@ def meaning(talk: Talk, _: acts.AskMeaning) -> Reply:
     """The figures that a line names, and what its terms mean where it does not ask for those of now."""
     run = talk.state.run
     figures = figures_asked(talk.text, run.report, talk.language) if run is not None else ""
-    meant = "" if figures and is_of_now(talk.text) else explained(talk.text, talk.language)
+    meant = "" if figures and speaks_of("term.now", talk.text) else explained(talk.text, talk.language)
     return Reply(decided=lines_of((figures, meant)) or talk.say("about.help"))
 
 
@@ -161,7 +156,7 @@ def _corrected(asked: Asked, user: int) -> str:
     decision, rates, name = asked.case.decision, asked.case.decision.rate_bps, asked.name(user)
     if not decision.is_usable:
         return ""
-    if rates[user] > 0 and _NOTHING.search(asked.text):
+    if rates[user] > 0 and speaks_of("term.nothing", asked.text):
         return asked.say("about.not_nothing", user=name)
     rank = str(ranked(normalise(asked.text)).get("rank", ""))
     served = rates[decision.served]

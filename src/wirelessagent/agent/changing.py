@@ -23,7 +23,7 @@ from wirelessagent.language.conversation.answers import assent, is_assent, speak
 from wirelessagent.language.recogniser import Question
 from wirelessagent.language.request import applied
 from wirelessagent.model.units import human
-from wirelessagent.telling.catalogue import Said
+from wirelessagent.telling.catalogue import Said, capital
 from wirelessagent.telling.explanation import certificate_line
 from wirelessagent.telling.parts import without_anything
 
@@ -231,7 +231,7 @@ def _in_effect(talk: Talk, key: str, run: Run, **places: str) -> Said:
 
 def _whole(talk: Talk, line: str) -> Said:
     """A line as a sentence of its own."""
-    return talk.say("text.sentence", line=line[:1].upper() + line[1:])
+    return talk.say("text.sentence", line=capital(line))
 
 
 def _check_assent(talk: Talk) -> None:

@@ -14,12 +14,13 @@ from typing import Any, cast
 import numpy as np
 
 from wirelessagent import chain, plugins
-from wirelessagent.language.acts import with_another
+from wirelessagent.language.acts import renamed
 from wirelessagent.language.conversation.anchors import Anchored
-from wirelessagent.language.conversation.line import Line
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint, Detail, Intent
+from wirelessagent.language.conversation.line import Line, group, is_all
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint, Intent
 from wirelessagent.language.recogniser import Context, Missing
 from wirelessagent.language.request import ASSUMED_MIN_RATE_BPS, Diff, Request
+from wirelessagent.language.text import normalise
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.errors import InputError, UnclearRequestError, UnsupportedProblemError
@@ -39,14 +40,8 @@ _UNNAMED: Mapping[str, float] = {"min_rate_bps": 0.0, "max_rate_bps": np.inf, "w
 
 _NAMES_SHOWN = 12
 
-_USER = re.compile(
-    r"(?i)\s*(?:(?:no|sorry|i mean|i meant|make it|我是说|是)[,，\s]*)*"
-    r"(?:the\s+)?(?:user|ue|用户)?\s*#?\s*(.{1,40}?)\s*号?[.!。]?\s*"
-)
-"""An answer to "whom did you mean?"."""
-
 _LONGEST_NAME = 100
-"""Characters of a line that may be such an answer."""
+"""Characters of a line that may answer whom it meant."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -228,22 +223,22 @@ def completed(missing: Missing, said: str, context: Context) -> Intent | None:
     """
     if len(said) > _LONGEST_NAME:
         return None
-    match, named = _USER.fullmatch(said), _named_alone(said, context)
+    named, match = _named_alone(said, context), is_all("whom", normalise(said).lower().strip(" .!。"))
     try:
-        said_name = named[0] if len(named) == 1 else match[1] if match else ""
-        number, _ = user_number(said_name, context.user_names, context.language or "en")
+        meant = named[0] if len(named) == 1 else group(match) if match else ""
+        number, _ = user_number(meant, context.user_names, context.language or "en")
     except UnknownUserError:
         return None
     intent, reference, name = missing.intent, missing.reference, context.user_names[number]
     details, constraints, pending = (
-        {key: _renamed(value, reference, name) for key, value in values.items()}
+        {key: renamed(value, reference, name) for key, value in values.items()}
         for values in (intent.details, intent.constraints, intent.pending)
     )
     if not reference:
         details["user"] = name
     elif not any(map(str.isdigit, reference)):
         details["called"] = {reference.lower(): (str(number + 1),)}
-    acts = tuple(with_another(act, reference, name) for act in intent.acts)
+    acts = renamed(intent.acts, reference, name)
     return dataclasses.replace(intent, details=details, constraints=constraints, pending=pending, acts=acts)
 
 
@@ -253,14 +248,6 @@ def _named_alone(said: str, context: Context) -> tuple[str, ...]:
     anchored = Anchored.of(said, line.voice.language, context.user_names)
     alone = not line.sentence.reading.values and {anchor.kind for anchor in anchored.anchors} <= {"users", "number"}
     return anchored.named(len(context.user_names)) if alone else ()
-
-
-def _renamed(value: Constraint | Detail, reference: str, name: str) -> Any:
-    if isinstance(value, Mapping):
-        return {name if key == reference else key: _renamed(inner, reference, name) for key, inner in value.items()}
-    if isinstance(value, tuple):
-        return tuple(name if user == reference else user for user in value)
-    return name if value == reference else value
 
 
 class RefusedError(UnsupportedProblemError):

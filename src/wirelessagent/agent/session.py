@@ -24,7 +24,7 @@ from wirelessagent.agent import asking, changing, posing, supposing
 from wirelessagent.agent.acting import TOLERANCE
 from wirelessagent.agent.posing import RefusedError, UnknownUserError, user_number
 from wirelessagent.agent.state import Decide, InsteadError, Reply, Site, State, Talk, asked_back, decided, station_of
-from wirelessagent.agent.turn import Lines, Run, Tools, Turn, shift_between, unmet
+from wirelessagent.agent.turn import Done, Lines, Run, Tools, Turn, shift_between, unmet
 from wirelessagent.language.acts import Act, Aim, Apply, Ask, AskStatus, Export, No, Press, Suppose, Undo, Yes
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import called, unanswered, understood, with_users
@@ -259,11 +259,10 @@ class Session:
         then, now = before.run and before.run.decision, run and run.decision
         turn = Turn(
             number=len(self._turns) + 1, session=self.id, text=talk.text, intent=intent, lines=lines,
-            stage=reply.stage, run=reply.run, at_utc=datetime.now(UTC).isoformat(timespec="milliseconds"),
-            version=__version__, seed=self._site.seed, recogniser=intent.recogniser, tables=reply.tables,
-            restored=reply.restored, error=reply.error, faulty=reply.faulty,
+            at_utc=datetime.now(UTC).isoformat(timespec="milliseconds"), version=__version__, seed=self._site.seed,
+            recogniser=intent.recogniser, by=self._by, pressed=talk.pressed,
             diff=difference(before.request, after.request), shift=shift_between(then, now),
-            by=self._by, pressed=talk.pressed,
+            **{field.name: getattr(reply, field.name) for field in dataclasses.fields(Done)},
         )  # fmt: skip
         if self._store is not None:
             try:

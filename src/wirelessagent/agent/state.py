@@ -19,14 +19,14 @@ from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.acting.simulated import SimulatedBaseStation
 from wirelessagent.agent import acting
 from wirelessagent.agent.posing import ABOVE_THE_LIMIT, ASSUMED_OUTAGE_PROBABILITY, RefusedError, pose
-from wirelessagent.agent.turn import Lines, Run, Stage, Tools, Turn, restated
+from wirelessagent.agent.turn import Done, Lines, Run, Tools, Turn, restated
 from wirelessagent.language.acts import Act, Press
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.recogniser import Awaited, Question
 from wirelessagent.language.request import Request
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
-from wirelessagent.model.errors import InputError, UnsupportedProblemError, WirelessAgentError
+from wirelessagent.model.errors import InputError, UnsupportedProblemError
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.outcome import Outcome
@@ -35,7 +35,7 @@ from wirelessagent.model.scene import Loss, Scene
 from wirelessagent.model.shown import Plain
 from wirelessagent.model.units import percent, reliability
 from wirelessagent.sensing.loss import random
-from wirelessagent.telling.catalogue import Event, Progress, Table, Voice, message, silent
+from wirelessagent.telling.catalogue import Event, Progress, Table, Voice, capital, message, silent
 from wirelessagent.telling.explanation import decided_line, explain
 from wirelessagent.telling.report import report, side_by_side
 
@@ -313,8 +313,7 @@ class Talk(Voice):
         """The notes of a run as sentences, without those of ``before`` and, where they were ``noted``, the 95 %."""
         language = run.intent.language
         known = {*before, *([_assumed(language)] if noted or self.state.noted else [])}
-        told = (note[:1].upper() + note[1:] for note in run.notes if note not in known)
-        return [message(language, "text.note", note=note) for note in told]
+        return [message(language, "text.note", note=capital(note)) for note in run.notes if note not in known]
 
 
 class InsteadError(Exception):
@@ -326,28 +325,16 @@ class InsteadError(Exception):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Reply(Lines):
-    """What a turn came to, beside what it says.
+class Reply(Lines, Done):
+    """What a line comes to, and what is said.
 
     Attributes:
-        stage: see :data:`~wirelessagent.agent.turn.Stage`.
         state: what holds now; None where nothing changed.
-        run: the run that was made or applied.
-        tables: figures that belong to the text.
-        restored: what was read back after the last good allocation was put back.
         undone: how many requests were taken back; that can't itself be undone.
-        error: what the reply tells of, where something could not be done.
-        faulty: whether what is in effect now is not as it was decided or promised.
     """
 
-    stage: Stage = "answered"
     state: State | None = None
-    run: Run | None = None
-    tables: tuple[Table, ...] = ()
-    restored: Outcome | None = None
     undone: int = 0
-    error: WirelessAgentError | None = None
-    faulty: bool = False
 
 
 Replies: TypeAlias = Mapping[type[Act], Callable[[Talk, Any], Reply]]

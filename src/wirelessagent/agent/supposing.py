@@ -19,6 +19,7 @@ from wirelessagent.agent.turn import Run, restated
 from wirelessagent.language import acts
 from wirelessagent.language.acts import Act
 from wirelessagent.language.intent import Constraint
+from wirelessagent.language.replies import figure_in_words
 from wirelessagent.language.request import Request, applied
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
@@ -294,13 +295,8 @@ def _outcomes(talk: Talk, columns: Sequence[Column]) -> list[str]:
 def _label(change: Sequence[Act], language: str) -> str:
     """What a change is called at the head of a column: its aim, or its figures, as in "95 %"."""
     aims = [parts.goal_words(act.objective, language) for act in change if isinstance(act, acts.Aim)]
-    return " ".join(dict.fromkeys([*aims, *(_figure(act) for act in change if isinstance(act, acts.Limit))]))
-
-
-def _figure(limit: acts.Limit) -> str:
-    if limit.kind == "outage_probability":
-        return reliability(limit.value)
-    return human(limit.value, "bit/s" if limit.kind.endswith("bps") else "W")
+    figures = [figure_in_words(act.kind, act.value) for act in change if isinstance(act, acts.Limit)]
+    return " ".join(dict.fromkeys([*aims, *figures]))
 
 
 REPLIES: Replies = {

@@ -14,7 +14,7 @@ import numpy as np
 
 from wirelessagent.language.acts import Act, AskWhy, AskWhyNot, Press
 from wirelessagent.language.intent import Intent, acts_of
-from wirelessagent.language.replies import figure_in_words, limits_in_words
+from wirelessagent.language.replies import aimed, figure_in_words, limits_in_words
 from wirelessagent.language.request import Diff, Request, constraints_of
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Decision
@@ -26,7 +26,7 @@ from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.scene import Scene
 from wirelessagent.model.shown import Picture, Shown, Summary
 from wirelessagent.model.units import human
-from wirelessagent.telling.catalogue import Table, called, joined, lines_of, message
+from wirelessagent.telling.catalogue import Table, called, capital, joined, lines_of, message
 from wirelessagent.telling.explanation import certificate_line, explain, summary_line
 from wirelessagent.telling.facts.case import Case, in_use
 from wirelessagent.telling.parts import goal_words
@@ -137,8 +137,7 @@ def restated(request: Request, language: str = "en") -> str:
     if request.method is not None:
         by = message(language, "request.by_method", method=called(language, request.method))
         limits = message(language, "text.between").join(part for part in (limits, by) if part)
-    goal = goal[:1].upper() + goal[1:]
-    return message(language, "request.whole" if limits else "request.aim_alone", goal=goal, limits=limits)
+    return aimed("request.whole", goal, limits, language)
 
 
 def changes_in_words(diff: Diff, language: str) -> str:
@@ -194,7 +193,7 @@ class Shift:
         if self.subcarriers:
             said.append(message(language, "changed.subcarriers", moved=self.subcarriers, total=self.total))
         listed = message(language, "text.list").join(said)
-        return message(language, "changed.allocation", changes=listed[:1].upper() + listed[1:]) if said else ""
+        return message(language, "changed.allocation", changes=capital(listed)) if said else ""
 
 
 def shift_between(before: Decision | None, after: Decision | None) -> Shift | None:
@@ -237,7 +236,28 @@ class Lines:
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class Turn(Shown):
+class Done:
+    """What came of a line, beside what is said.
+
+    Attributes:
+        stage: see :data:`Stage`.
+        run: the run of the chain that the reply speaks of; a what-if's own, which nothing was applied of.
+        tables: figures that belong to the reply.
+        restored: what the base station read back after the last good allocation was put back; None where none was.
+        error: what the reply tells of, where something could not be done.
+        faulty: whether what is in effect now is not as it was decided or promised, with nothing to go back to.
+    """
+
+    stage: Stage = "answered"
+    run: Run | None = None
+    tables: tuple[Table, ...] = ()
+    restored: Outcome | None = None
+    error: WirelessAgentError | None = None
+    faulty: bool = False
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Turn(Done, Shown):
     """What came of one line of a conversation.
 
     Attributes:
@@ -246,16 +266,10 @@ class Turn(Shown):
         text: what the operator said.
         intent: what was understood.
         lines: what the agent said, in the operator's language.
-        stage: what it came to.
-        run: the run of the chain that the reply speaks of; a what-if's own, which nothing was applied of.
         at_utc: when it was done, ISO 8601.
         version: of this package.
         seed: of every draw.
         recogniser: which recogniser understood it.
-        tables: figures that belong to the reply.
-        restored: what the base station read back after the last good allocation was put back; None where none was.
-        error: what the reply tells of, where something could not be done.
-        faulty: whether what is in effect now is not as it was decided or promised, with nothing to go back to.
         diff: what the turn changed of what is asked for.
         shift: what it changed of the allocation that held; None where it decided nothing, or nothing held.
         by: the operator's name, where several are known.
@@ -267,16 +281,10 @@ class Turn(Shown):
     text: str
     intent: Intent
     lines: Lines
-    stage: Stage
-    run: Run | None
     at_utc: str
     version: str
     seed: int
     recogniser: str
-    tables: tuple[Table, ...] = ()
-    restored: Outcome | None = None
-    error: WirelessAgentError | None = None
-    faulty: bool = False
     diff: Diff = field(default_factory=Diff)
     shift: Shift | None = None
     by: str = ""

@@ -305,24 +305,21 @@ class Export(Ask):
     format: str = "ts28312"
 
 
-def with_another(act: Act, user: str, name: str) -> Act:
-    """The act with somebody in the place of a user.
+def renamed(value: Any, user: str, name: str) -> Any:
+    """An act, or what an act or an intent holds, with somebody in the place of a user.
 
-    >>> with_another(LeaveOut(whom=Named(("2", "9"))), "9", "3").whom
-    Named(users=('2', '3'))
+    >>> renamed(LeaveOut(whom=Named(("2", "9"))), "9", "3").whom, renamed({"all": 1e5, "9": 1e6}, "9", "3")
+    (Named(users=('2', '3')), {'all': 100000.0, '3': 1000000.0})
     """
-    changed = {field.name: _with_another(getattr(act, field.name), user, name) for field in dataclasses.fields(act)}
-    return dataclasses.replace(act, **changed)
-
-
-def _with_another(value: Any, user: str, name: str) -> Any:
-    if isinstance(value, Named):
-        return Named(tuple(name if one == user else one for one in value.users))
-    if isinstance(value, Act):
-        return with_another(value, user, name)
+    if isinstance(value, Act | Named):
+        fields = [field.name for field in dataclasses.fields(value)]
+        return dataclasses.replace(value, **{each: renamed(getattr(value, each), user, name) for each in fields})
+    if isinstance(value, Mapping):
+        inner = cast("Mapping[str, Any]", value).items()
+        return {name if key == user else key: renamed(each, user, name) for key, each in inner}
     if isinstance(value, tuple):
-        return tuple(_with_another(one, user, name) for one in cast("tuple[Any, ...]", value))
-    return value
+        return tuple(renamed(each, user, name) for each in cast("tuple[Any, ...]", value))
+    return name if user and value == user else value
 
 
 def shown(act: Act) -> dict[str, Any]:

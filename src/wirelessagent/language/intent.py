@@ -5,6 +5,7 @@ Recognisers print and store kind, topic and details, which old records have; the
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -118,28 +119,23 @@ def same_constraints(one: Mapping[str, Constraint], other: Mapping[str, Constrai
 
     A rate of everybody, where only some are served, is one of each of them.
     """
-    return one.keys() == other.keys() and all(
-        _same(_stated(one, name), _stated(other, name), tolerance) for name in one
+    ours, theirs = _by_user(one), _by_user(other)
+    return ours.keys() == theirs.keys() and all(
+        math.isclose(figure, theirs[key], rel_tol=tolerance) for key, figure in ours.items()
     )
 
 
-def _stated(constraints: Mapping[str, Constraint], name: str) -> Mapping[str, float] | frozenset[str]:
-    value = constraints[name]
-    if isinstance(value, tuple):
-        return frozenset(value)
-    if isinstance(value, Mapping):
-        return value
-    served = constraints.get("users") if name in ("min_rate_bps", "max_rate_bps") else None
-    return dict.fromkeys(served if isinstance(served, tuple) else (EVERYBODY,), value)
-
-
-def _same(
-    one: Mapping[str, float] | frozenset[str], other: Mapping[str, float] | frozenset[str], tolerance: float
-) -> bool:
-    if isinstance(one, frozenset) or isinstance(other, frozenset):
-        return one == other
-    same = one.keys() == other.keys()
-    return same and all(math.isclose(one[user], other[user], rel_tol=tolerance) for user in one)
+def _by_user(constraints: Mapping[str, Constraint]) -> dict[tuple[str, str], float]:
+    """Each figure by its name and its user; users who are only listed count as 1."""
+    figures, served = dict[tuple[str, str], float](), constraints.get("users")
+    everybody = served if isinstance(served, tuple) else (EVERYBODY,)
+    for name, value in constraints.items():
+        if isinstance(value, tuple):
+            value = dict.fromkeys(value, 1.0)
+        elif not isinstance(value, Mapping):
+            value = dict.fromkeys(everybody if name in ("min_rate_bps", "max_rate_bps") else (EVERYBODY,), value)
+        figures |= {(name, user): figure for user, figure in value.items()}
+    return figures
 
 
 def checked_constraints(constraints: Mapping[str, Constraint]) -> Mapping[str, Constraint]:
@@ -202,7 +198,7 @@ def acts_of(intent: Intent) -> tuple[Act, ...]:
     if intent.kind == "allocate":
         return tuple(_changes(intent))
     if intent.kind in ("question", "command"):
-        return (_TOPICS.get(intent.topic or "", _result)(intent.details),)
+        return (_of_topic(intent.topic or "other", intent.details),)
     return ()
 
 
@@ -235,69 +231,71 @@ def stated(constraints: Mapping[str, Constraint], words: Mapping[str, str] | Non
                 yield acts.Limit(kind=name, value=by_user[user], whom=whom, words=said)
 
 
+def _of_topic(topic: str, details: Details) -> Act:
+    """What a question or a command asks for; a question that states limits asks what would be with them."""
+    limits = _limits(topic, details)
+    if limits:  # "can user 4 get 3 Mbit/s?"
+        return acts.Suppose(acts=tuple(stated(limits)))
+    match topic, details:
+        case "what_if", _:
+            return _supposed(details)
+        case "compare", _:
+            return _compared(details)
+        case "confirm", {"way": way}:
+            return acts.Yes(chooses=True, choice=_whole(way))
+        case "reject", _:
+            return acts.No(cancels="cancel" in details, stops="stop" in details)
+        case "history", {"number": turn}:
+            return acts.AskHistory(turn=_turn(details.get("turn", turn)))
+        case "users", {"asked": "gain"}:
+            kind = acts.AskGain
+        case "users", {"rank": _}:
+            kind = acts.AskRank
+        case "users", {"listed": listed}:
+            kind = acts.AskDearest if listed == "dearest" else acts.AskSubcarriers
+        case "users", {"subcarrier": _}:
+            kind = acts.AskOwner
+        case "other", {"listed": "methods"}:
+            kind = acts.AskMethods
+        case "other", {"asked": "duration"}:
+            kind = acts.AskDuration
+        case "other", {"asked": "limits"}:
+            kind = acts.AskLimits
+        case _:
+            kind = _TOPICS[topic]
+    return _filled(kind, details)
+
+
+def _limits(topic: str, details: Details) -> Mapping[str, Constraint]:
+    """What a question of a topic that is about no limits states of them all the same."""
+    if topic not in _WONDERED:
+        return {}
+    limits, rate, user = dict(_constraints(details)), details.get("rate_bps"), _name(details.get("user"))
+    if isinstance(rate, int | float):
+        limits["min_rate_bps"] = float(rate) if user is None else {user: float(rate)}
+    return limits
+
+
+def _filled(kind: type[Act], details: Details, **further: Any) -> Act:
+    """An act of a kind, with those of its fields that details name."""
+    said = {field.name: details.get(field.name) for field in dataclasses.fields(kind) if field.name in _READ}
+    return kind(**{name: _READ[name](value) for name, value in said.items() if value is not None}, **further)
+
+
 def _supposed(details: Details) -> Act:
     """What a question would have be so."""
-    share, aim = _detail(details, "missing_share"), details.get("objective")
+    aim = details.get("objective")
     changes: tuple[Act, ...] = (acts.Aim(objective=aim),) if isinstance(aim, str) else ()
     changes += tuple(acts.Drop(kind=name) for name in str(details.get("dropped", "")).split())
     changes += tuple(stated(_constraints(details)))
-    asked = details.get("asked")
     if details.get("of") == "channel":
         return acts.AskOtherChannel()
-    if asked == "most":
-        return acts.AskMost(acts=changes, user=_user(details))
-    if asked == "power":
-        judged = "needed" if details.get("judged") == "needed" else "enough"
-        return acts.AskPower(acts=changes, enough_w=_detail(details, "enough_w"), judged=judged)
-    return acts.Suppose(acts=changes, missing_share=share)
-
-
-def _wondered(about: Callable[[Details], Act]) -> Callable[[Details], Act]:
-    """A question that states limits asks what would be with them: "can user 4 get 3 Mbit/s?"."""
-
-    def act(details: Details) -> Act:
-        limits, rate, user = dict(_constraints(details)), _detail(details, "rate_bps"), _user(details)
-        if rate is not None:
-            limits["min_rate_bps"] = rate if user is None else {user: rate}
-        return acts.Suppose(acts=tuple(stated(limits))) if limits else about(details)
-
-    return act
-
-
-def _step(details: Details) -> Act:
-    users = _detail(details, "users")
-    return acts.AskStep(
-        power_w=_detail(details, "power_w"), rate_bps=_detail(details, "rate_bps"),
-        rate_share=_detail(details, "rate_share"), users=None if users is None else int(users),
-        each="each" in details, user=_user(details),
-    )  # fmt: skip
-
-
-def _asked_users(details: Details) -> Act:
-    place = _detail(details, "subcarrier")
-    if details.get("asked") == "gain":
-        return acts.AskGain(user=_user(details), subcarrier=None if place is None else int(place))
-    if "rank" in details:
-        named: dict[str, Any] = {"rank": details["rank"], "of": details.get("of", "rate")}
-        return acts.AskRank(**named)
-    if "listed" in details:
-        return acts.AskDearest() if details["listed"] == "dearest" else acts.AskSubcarriers(user=_user(details))
-    return acts.AskUsers(user=_user(details)) if place is None else acts.AskOwner(subcarrier=int(place))
-
-
-def _result(details: Details) -> Act:
-    """Of a result as a whole, and of what made it."""
-    asked = details.get("asked")
-    if details.get("listed") == "methods":
-        return acts.AskMethods()
-    if asked == "duration":
-        return acts.AskDuration()
-    return acts.AskLimits() if asked == "limits" else acts.AskResult()
+    kind = {"most": acts.AskMost, "power": acts.AskPower}.get(str(details.get("asked")), acts.Suppose)
+    return _filled(kind, details, acts=changes)
 
 
 def _compared(details: Details) -> Act:
-    named = [_turn(details, name) for name in ("turn", "beside")]
-    turns = tuple(turn for turn in named if turn is not None)
+    turns = tuple(_turn(details[name]) for name in ("turn", "beside") if details.get(name) is not None)
     if turns:
         return acts.CompareTurns(turns=turns)
     figures = [cast("Mapping[str, Constraint]", details[name]) for name in sorted(details) if name.startswith("either")]
@@ -310,60 +308,42 @@ def _compared(details: Details) -> Act:
     return acts.CompareTools(names=names) if names else acts.CompareLast()
 
 
-def _yes(details: Details) -> Act:
-    choice = _detail(details, "way")
-    return acts.Yes(chooses="way" in details, choice=None if choice is None else int(choice))
-
-
-def _undone(details: Details) -> Act:
-    turn, steps = _turn(details, "turn"), details.get("steps", 1.0)
-    if turn is not None:
-        return acts.Undo(turn=turn)
-    return acts.Undo(steps=int(steps) if isinstance(steps, float) else None)
-
-
-_TOPICS: Mapping[str, Callable[[Details], Act]] = {
-    "apply": lambda details: acts.Apply(),
-    "confirm": _yes,
-    "reject": lambda details: acts.No(cancels="cancel" in details, stops="stop" in details),
-    "undo": _undone,
-    "reset": lambda details: acts.Forget(),
-    "compare": _compared,
-    "explain": lambda details: acts.AskReasons(turn=_turn(details, "turn")),
-    "history": lambda details: acts.AskHistory(turn=_turn(details, "turn" if "turn" in details else "number")),
-    "status": lambda details: acts.AskStatus(),
-    "help": lambda details: acts.AskHelp(),
-    "export": lambda details: acts.Export(format=str(details.get("format", "ts28312"))),
-    "why_user": _wondered(lambda details: acts.AskWhy(user=_user(details))),
-    "why_infeasible": _wondered(lambda details: acts.AskWhyNot()),
-    "certificate": _wondered(lambda details: acts.AskProof()),
-    "uncertainty": _wondered(lambda details: acts.AskCertainty()),
-    "what_if": _supposed,
-    "step": _step,
-    "prices": _wondered(lambda details: acts.AskPrices(user=_user(details))),
-    "users": _wondered(_asked_users),
-    "capabilities": lambda details: acts.AskHelp(),
-    "concept": lambda details: acts.AskMeaning(),
-    "other": _wondered(_result),
-}
-
-
 def _constraints(details: Details) -> Mapping[str, Constraint]:
     return cast("Mapping[str, Constraint]", details.get("constraints") or {})
 
 
-def _user(details: Details) -> str | None:
-    user = details.get("user")
-    return user if isinstance(user, str) else None
+def _name(value: object) -> str | None:
+    return value if isinstance(value, str) else None
 
 
-def _detail(details: Details, name: str) -> float | None:
-    value = details.get(name)
+def _number(value: object) -> float | None:
     return float(value) if isinstance(value, int | float) else None
 
 
-def _turn(details: Details, name: str) -> TurnReference | None:
-    turn = details.get(name)
-    if isinstance(turn, int | float):
-        return int(turn) if turn == int(turn) else f"{turn:g}"
-    return None if turn is None else str(turn)
+def _whole(value: object) -> int | None:
+    return int(value) if isinstance(value, int | float) else None
+
+
+def _turn(value: Detail) -> TurnReference:
+    number = _number(value)
+    if number is None:
+        return str(value)
+    return int(number) if number == int(number) else f"{number:g}"
+
+
+_READ: Mapping[str, Callable[[Any], Any]] = {
+    "user": _name, "rank": _name, "of": _name, "format": str, "turn": _turn, "steps": _whole, "users": _whole,
+    "subcarrier": _whole, "power_w": _number, "rate_bps": _number, "rate_share": _number, "missing_share": _number,
+    "enough_w": _number, "judged": _name, "each": bool,
+}  # fmt: skip
+"""The fields of acts that details name, and what becomes of each."""
+
+_WONDERED = ("why_user", "why_infeasible", "certificate", "uncertainty", "prices", "users", "other")
+_TOPICS: Mapping[str, type[Act]] = {
+    "apply": acts.Apply, "confirm": acts.Yes, "undo": acts.Undo, "reset": acts.Forget, "explain": acts.AskReasons,
+    "history": acts.AskHistory, "status": acts.AskStatus, "help": acts.AskHelp, "export": acts.Export,
+    "why_user": acts.AskWhy, "why_infeasible": acts.AskWhyNot, "certificate": acts.AskProof,
+    "uncertainty": acts.AskCertainty, "step": acts.AskStep, "prices": acts.AskPrices, "users": acts.AskUsers,
+    "capabilities": acts.AskHelp, "concept": acts.AskMeaning, "other": acts.AskResult,
+}  # fmt: skip
+"""The act of each topic whose details say no more than its fields."""

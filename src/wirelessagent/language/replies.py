@@ -8,7 +8,7 @@ from typing import Any
 
 from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, Constraint, Detail, Intent, IntentKind
 from wirelessagent.model.units import prefixed, reliability
-from wirelessagent.telling.catalogue import has_message, listed, message
+from wirelessagent.telling.catalogue import capital, goal_named, in_a_row, listed, message
 
 _ROUNDING = 1e-9
 
@@ -39,11 +39,12 @@ class Voice:
         return self.both([name for name in self.labels if name != without], last)
 
     def label(self, objective: str) -> str:
-        key = f"goal.{objective}"
-        return message(self.language, key) if has_message(self.language, key) else self.labels.get(objective, objective)
+        """What an objective is called."""
+        return goal_named(objective, self.labels.get(objective, objective), self.language)
 
     def both(self, objectives: Sequence[str], last: str = "and") -> str:
-        return self._listed([self.label(name) for name in objectives], last)
+        """Several objectives in one list."""
+        return in_a_row(self.language, [self.label(name) for name in objectives], last)
 
     def constraints(self, values: Mapping[str, Constraint]) -> str:
         """The constraints with figures and units, "at least 1 Mbit/s for each user, at most 10 W …"."""
@@ -62,9 +63,8 @@ class Voice:
         gone = [message(self.language, f"dropped.{name}") for name in dropped if name not in values]
         parts = [self.constraints(values)] if values else []
         if gone:
-            parts.append(self.say("taken_off", text=self._listed(gone, "and")))
-        said = message(self.language, "text.comma").join(parts)
-        return message(self.language, "text.sentence", line=said[:1].upper() + said[1:]) if said else ""
+            parts.append(self.say("taken_off", text=in_a_row(self.language, gone)))
+        return self._sentence([capital(parts[0]), *parts[1:]]) if parts else ""
 
     def changed(
         self, aims: Sequence[str], values: Mapping[str, Constraint], dropped: Sequence[str],
@@ -73,21 +73,15 @@ class Voice:
         """What becomes of a request, as one sentence: another aim, limits, and those that hold no longer."""
         gone = message(self.language, "request.no_longer", limits=self.constraints(lost)) if lost else ""
         parts = [*aims, self.amended(values, dropped), gone]
-        said = [f"{part[:1].lower()}{part[1:]}".rstrip(" .。") for part in parts if part]
-        return message(self.language, "text.sentence", line=message(self.language, "text.comma").join(said))
+        return self._sentence([f"{part[:1].lower()}{part[1:]}".rstrip(" .。") for part in parts if part])
 
     def restated(self, objective: str, values: Mapping[str, Constraint], not_used: Sequence[str]) -> str:
         """What was understood, as one sentence."""
-        label, limits = self.label(objective), self.constraints(values)
-        key = "request.understood" if limits else "request.aim_alone"
-        sentence = message(self.language, key, goal=label[:1].upper() + label[1:], limits=limits)
-        return sentence + (self.say("not_used", text=self._listed(list(not_used), "and")) if not_used else "")
+        sentence = aimed("request.understood", self.label(objective), self.constraints(values), self.language)
+        return sentence + (self.say("not_used", text=in_a_row(self.language, not_used)) if not_used else "")
 
-    def _listed(self, items: Sequence[str], last: str) -> str:
-        if len(items) < 2:
-            return "".join(items)
-        comma = message(self.language, "text.comma")
-        return comma.join(items[:-1]) + message(self.language, f"text.{last}") + items[-1]
+    def _sentence(self, parts: Sequence[str]) -> str:
+        return message(self.language, "text.sentence", line=message(self.language, "text.comma").join(parts))
 
 
 class Answer:
@@ -133,6 +127,11 @@ class Answer:
             kind=kind, language=self.voice.language, confidence=confidence, reply=reply, recogniser=self.recogniser,
             **given,
         )  # fmt: skip
+
+
+def aimed(key: str, goal: str, limits: str, language: str) -> str:
+    """An aim with its limits in one sentence, that of a key, or of an aim without limits."""
+    return message(language, key if limits else "request.aim_alone", goal=capital(goal), limits=limits)
 
 
 def limits_in_words(limits: Mapping[str, Constraint], language: str) -> str:

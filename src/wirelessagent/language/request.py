@@ -79,17 +79,6 @@ class Diff:
             for one in self.changes if one.after is None and one.before is not None
         })  # fmt: skip
 
-    def after(self, before: Request | None) -> Request | None:
-        """The request that this diff makes of the one before it."""
-        if self.objective[1] is None:
-            return None
-        figures = _held(before)
-        for one in self.changes:
-            figures.pop((one.kind, one.user), None)
-            if one.after is not None:
-                figures[one.kind, one.user] = one.after
-        return Request(objective=self.objective[1], constraints=constraints_of(figures), method=self.method[1])
-
 
 def applied(before: Request | None, said: Iterable[Act], *, radiated_w: float = 0.0) -> tuple[Request | None, Diff]:
     """The request after acts, and what they changed. Acts that change nothing of it, such as questions, are left out.

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias, cast
@@ -132,13 +132,25 @@ def listed(language: str, names: Iterable[str]) -> str:
     given = list(names)
     numbers = [number[1] for number in map(_NUMBERED.fullmatch, given) if number is not None]
     if len(numbers) == len(given) >= _SEVERAL:
-        return message(language, "whom.users", numbers=_in_a_row(language, numbers))
-    return _in_a_row(language, [called(language, name) for name in given])
+        return message(language, "whom.users", numbers=in_a_row(language, numbers))
+    return in_a_row(language, [called(language, name) for name in given])
 
 
-def _in_a_row(language: str, names: list[str]) -> str:
-    head = [message(language, "text.comma").join(names[:-1])] if len(names) > 1 else []
-    return message(language, "text.and").join([*head, *names[-1:]])
+def in_a_row(language: str, said: Sequence[str], last: str = "and") -> str:
+    """What is said in a row, with "and", "or" or "either" before the last."""
+    head = [message(language, "text.comma").join(said[:-1])] if len(said) > 1 else []
+    return message(language, f"text.{last}").join([*head, *said[-1:]])
+
+
+def goal_named(objective: str, otherwise: str, language: str) -> str:
+    """What a built-in objective is called; one of a plug-in is called otherwise."""
+    key = f"goal.{objective}"
+    return message(language, key) if has_message(language, key) else otherwise
+
+
+def capital(said: str) -> str:
+    """The same with a capital at its beginning."""
+    return said[:1].upper() + said[1:]
 
 
 @functools.cache

@@ -16,7 +16,7 @@ from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import db, human, percent, probability, reliability
 from wirelessagent.telling import parts
-from wirelessagent.telling.catalogue import Said, message
+from wirelessagent.telling.catalogue import Said, goal_named, message
 from wirelessagent.telling.facts.case import Case, Certainty, Certificate, certainty, certificate, measured
 from wirelessagent.telling.parts import Teller
 from wirelessagent.telling.report import Report
@@ -83,7 +83,7 @@ def rests_on(objective: Objective, language: str) -> str:
     on = "levels" if objective.joined == "min" else "conjugate" if objective.power_law() is None else "law"
     alpha = objective.power_law() or 0.0
     law = {0.0: "r", 1.0: "ln r"}.get(alpha, f"r^(1 − α)/(1 − α) with α = {alpha:g}")
-    named = parts.goal_named(objective.name, objective.name, language)
+    named = goal_named(objective.name, objective.name, language)
     return message(language, f"proof.rests_on_{on}", objective=named, law=law)
 
 

@@ -9,8 +9,16 @@ from dataclasses import dataclass
 
 from wirelessagent import plugins
 from wirelessagent.model.objective import Objective
-from wirelessagent.telling.catalogue import Said, has_message, joined, languages, lines_of, message, messages
-from wirelessagent.telling.parts import goal_named
+from wirelessagent.telling.catalogue import (
+    Said,
+    goal_named,
+    has_message,
+    joined,
+    languages,
+    lines_of,
+    message,
+    messages,
+)
 from wirelessagent.telling.report import Report
 
 _NAMES, _MEANING = "term.names.", "term.meaning."
@@ -56,10 +64,10 @@ def explained(text: str, language: str) -> Said:
     return lines_of(dict.fromkeys(entry.told(language) for entry in _named(text)[:2]))
 
 
-def is_of_now(text: str) -> bool:
-    """Whether a text asks for something as it is now, not for what a word means."""
+def speaks_of(key: str, text: str) -> bool:
+    """Whether a text has a word of those that a message lists: of "term.now", of what is, or of "term.nothing"."""
     said = _plain(text)
-    return any(_places(said, _plain(word)) for word in _words("term.now"))
+    return any(_places(said, _plain(word)) for word in _words(key))
 
 
 def figures_asked(text: str, report: Report, language: str) -> Said:

@@ -17,7 +17,7 @@ from wirelessagent.model.decision import Decision
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.phrases import phrases
 from wirelessagent.model.units import human, percent, reliability
-from wirelessagent.telling.catalogue import Voice, called, has_message, listed, message
+from wirelessagent.telling.catalogue import Voice, called, goal_named, listed, message
 from wirelessagent.telling.facts.case import Case, objective_of
 from wirelessagent.telling.facts.nearest import shortage_of
 
@@ -89,12 +89,6 @@ def goal_words(objective: str, language: str) -> str:
     own = plugins.objective(objective).phrases
     spoken = own.get(language) or own.get("en") or next(iter(own.values()), (objective.replace("_", " "),))
     return goal_named(objective, spoken[0], language)
-
-
-def goal_named(objective: str, otherwise: str, language: str) -> str:
-    """What a built-in objective is called; one of a plug-in is called otherwise."""
-    key = f"goal.{objective}"
-    return message(language, key) if has_message(language, key) else otherwise
 
 
 def value_name(decision: Decision, language: str) -> str:
