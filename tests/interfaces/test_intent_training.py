@@ -338,7 +338,7 @@ def test_a_talk_is_an_example_a_line_with_what_it_comes_to(tmp_path: Path) -> No
 
 def test_a_model_of_talks_learns_what_it_is_shown_and_is_the_same_each_time(tmp_path: Path) -> None:
     (tmp_path / "one.txt").write_text(SAID, "utf-8")
-    said = talks.parsed_all(list(talk_notation.examples(tmp_path)), processes=1)
+    said = [talks.parsed(each) for each in talk_notation.examples(tmp_path)]
     model, again = (talks.trained(said) for _ in range(2))
     assert (model.weights == again.weights).all()
     for example in talk_notation.examples(tmp_path):

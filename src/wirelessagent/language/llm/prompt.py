@@ -137,14 +137,8 @@ def case(text: str, figures: Iterable[Figure], context: Context) -> str:
     data = {
         "sentence": text,
         "figures": [
-            {
-                "label": figure.label,
-                "words": figure.words,
-                "kind": figure.kind,
-                "value": figure.value,
-                "unit": _UNITS.get(figure.kind, ""),
-                "bound": figure.comparator,
-            }
+            {"label": figure.label, "words": figure.words, "kind": figure.kind, "value": figure.value,
+             "unit": _UNITS.get(figure.kind, ""), "bound": figure.comparator}
             for figure in figures
         ],
         "user_names": names,
@@ -152,7 +146,7 @@ def case(text: str, figures: Iterable[Figure], context: Context) -> str:
         "current_request": None if context.objective is None else current,
         "awaited": context.awaits,
         "before_the_question": plain(context.question.pending),
-    }
+    }  # fmt: skip
     return json.dumps(data, ensure_ascii=False)
 
 

@@ -6,10 +6,7 @@ The same file for the same sentences on one machine. It needs JAX and Optax, of 
 from __future__ import annotations
 
 import logging
-import sys
-import time
 from collections.abc import Sequence
-from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -19,7 +16,7 @@ from wirelessagent.language.intent import checked_constraints, same_constraints
 from wirelessagent.language.sentence import Sentence, own_words
 from wirelessagent.language.sentence_model import KNOWN, SENTENCES_FILE, SentenceModel, hashes_of, places_of, rows_of
 from wirelessagent.language.training.examples import OBJECTIVES, Example, examples
-from wirelessagent.language.training.fit import in_parallel
+from wirelessagent.language.training.fit import in_parallel, write
 from wirelessagent.language.training.network import LENGTHS, PASSES, Shown, fit
 
 Hashes: TypeAlias = tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]
@@ -94,13 +91,5 @@ def taught(every: Sequence[Example], passes: float = PASSES, processes: int = 2)
     return SentenceModel(labels=tuple(labels), weights=weights, known=known)
 
 
-def main(path: Path) -> None:
-    """Read, teach, write."""
-    logging.basicConfig(level=logging.INFO, format="%(message)s")
-    start = time.perf_counter()
-    taught(list(examples())).save(path)
-    _LOG.info("%s: %d kB (%.0f s)", path.name, path.stat().st_size // 1000, time.perf_counter() - start)
-
-
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else SENTENCES_FILE)
+    write(SENTENCES_FILE, lambda path: taught(list(examples())).save(path))

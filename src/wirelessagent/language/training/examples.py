@@ -25,7 +25,7 @@ import json
 import math
 import random
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
@@ -54,6 +54,7 @@ _PER_WISH, _PER_SITUATION, _PER_WORDS, _PER_OTHER = 9.0, 4.0, 12.0, 5.0
 """How often a template is drawn, for each doubling of its variety."""
 
 _SPACES = re.compile(r"\s+")
+_PART = re.compile(r"<[^>]*>|[()|]|[^<()|]+")
 _TIGHT = re.compile(r"\s+([,.;:!?\uff0c。？])")
 
 
@@ -76,13 +77,6 @@ def sentences(seed: int = 1) -> Iterator[tuple[str, str]]:
             yield (mistyped(text, chance) if chance.random() < _TYPOS else text), label
 
 
-def wishes(language: str, chance: random.Random) -> Iterator[tuple[str, str]]:
-    """What somebody may want of a cell, with its kind, without end: aims, limits, both, and at times to go back."""
-    maker = _Maker(language, chance)
-    while True:
-        yield maker.wish()
-
-
 def mistyped(text: str, chance: random.Random) -> str:
     """A sentence with one slip: a letter lost, doubled, or swapped with its neighbour."""
     if len(text) < 6:
@@ -99,65 +93,47 @@ class Grammar:
     """The templates of one language."""
 
     language: str
-    templates: Mapping[str, tuple[str, ...]]
-    lists: Mapping[str, tuple[str, ...]]
+    templates: Mapping[str, Sequence[str]]
+    lists: Mapping[str, Sequence[str]]
 
     @classmethod
     def read(cls, path: Path) -> Grammar:
         templates, lists, into = dict[str, list[str]](), dict[str, list[str]](), list[str]()
         for line in path.read_text(encoding="utf-8").splitlines():
             text = line.strip()
-            if not text or text.startswith("%"):
-                continue
             if text.startswith("["):
                 into = templates.setdefault(text.strip("[]"), [])
             elif text.startswith("= "):
                 into = lists.setdefault(text[2:].strip(), [])
-            else:
+            elif text and not text.startswith("%"):
                 into.append(text)
-        return cls(
-            language=path.stem,
-            templates={name: tuple(lines) for name, lines in templates.items()},
-            lists={name: tuple(lines) for name, lines in lists.items()},
-        )
+        return cls(language=path.stem, templates=templates, lists=lists)
 
     def draw(self, template: str, chance: random.Random, slots: Mapping[str, Slot]) -> str:
         """One of the sentences that a template stands for."""
-        text, end = self._draw(template, 0, chance, slots)
-        assert end == len(template), f"unbalanced brackets in {template!r}"
+        choices = [[""]]  # that are open, the innermost last, each with its options so far
+        for part in _PART.findall(template):
+            if part == "(":
+                choices.append([""])
+            elif part == "|":
+                choices[-1].append("")
+            elif part == ")":
+                drawn = chance.choice(choices.pop())
+                choices[-1][-1] += drawn
+            elif part[0] == "<":
+                name = part[1:-1]
+                listed = None if name in slots else chance.choice(self.lists[name])
+                choices[-1][-1] += slots[name](chance) if listed is None else self.draw(listed, chance, slots)
+            else:
+                choices[-1][-1] += part
+        assert [len(options) for options in choices] == [1], f"unbalanced brackets in {template!r}"
+        text = choices[0][0]
         text = _SPACES.sub("" if self.language == "zh" and not text.isascii() else " ", text).strip()
         return _TIGHT.sub(r"\1", text)
 
-    def _draw(self, template: str, start: int, chance: random.Random, slots: Mapping[str, Slot]) -> tuple[str, int]:
-        options, place = [""], start
-        while place < len(template):
-            letter = template[place]
-            if letter == "(":
-                drawn, place = self._draw(template, place + 1, chance, slots)
-                options[-1] += drawn
-            elif letter == ")":
-                return chance.choice(options), place + 1
-            elif letter == "|" and start > 0:
-                options.append("")
-                place += 1
-            elif letter == "<":
-                end = template.index(">", place)
-                options[-1] += self._slot(template[place + 1 : end], chance, slots)
-                place = end + 1
-            else:
-                options[-1] += letter
-                place += 1
-        return options[0], place
-
-    def _slot(self, name: str, chance: random.Random, slots: Mapping[str, Slot]) -> str:
-        if name in slots:
-            return slots[name](chance)
-        return self.draw(chance.choice(self.lists[name]), chance, slots)
-
     def variety(self, template: str) -> int:
         """Roughly how many sentences a template stands for."""
-        several = template.count("|") + 1
-        return several * (1 + 3 * template.count("<"))
+        return (template.count("|") + 1) * (1 + 3 * template.count("<"))
 
 
 class _Maker:
@@ -169,7 +145,7 @@ class _Maker:
         self._gap, self._comma = ("", "\uff0c") if language == "zh" else (" ", ", ")
 
     def wish(self) -> tuple[str, str]:
-        """An aim, a limit, both, or a command that goes back, with its kind."""
+        """What somebody may want of a cell, with its kind: an aim, a limit, both, and at times to go back."""
         draw = self._chance.random()
         if draw < _GOES_BACK:
             command = self._chance.choice(("command.undo", "command.reset"))
@@ -203,7 +179,7 @@ class _Maker:
         for _ in range(60 if self._grammar.language in ("en", "zh") else 20):
             for objective in OBJECTIVES:
                 wish = self._pick(objective)
-                wonder = self._pick("wonder", {"wish": lambda _, wish=wish: wish})
+                wonder = self._pick("wonder", wish=wish)
                 yield wonder + ("?" if chance.random() < 0.6 else ""), "question.what_if"
             for rivals in _RIVALS:
                 pair = [self._pick(objective) for objective in rivals]
@@ -212,15 +188,19 @@ class _Maker:
             refused = chance.choice(self._words_by_use["not"]) + self._pick(chance.choice(OBJECTIVES))
             yield refused, "clarify.negated"
 
-    def _pick(self, name: str, more: Mapping[str, Slot] | None = None) -> str:
-        templates = self._grammar.templates[name]
-        return self._grammar.draw(self._chance.choice(templates), self._chance, {**self._slots, **(more or {})})
+    def _draw(self, template: str, **more: str) -> str:
+        """One of the sentences of a template, with ``more`` in the places of their names."""
+        given: Mapping[str, Slot] = {name: lambda _, text=text: text for name, text in more.items()}
+        return self._grammar.draw(template, self._chance, {**self._slots, **given})
+
+    def _pick(self, name: str, **more: str) -> str:
+        return self._draw(self._chance.choice(self._grammar.templates[name]), **more)
 
     def _wish(self, template: str, label: str) -> str:
         """A wish, or the story of one, among other sentences."""
         chance = self._chance
         objective, _, situation = label.partition(".")
-        core = self._grammar.draw(template, chance, self._slots)
+        core = self._draw(template)
         if chance.random() < _BARE:
             return core
         parts = [core]
@@ -231,7 +211,8 @@ class _Maker:
         elif not situation and chance.random() < 0.2:
             parts[0] = self._contrasted(core, objective)
         if not situation and chance.random() < 0.07:
-            parts.insert(0, self._situation())
+            stories = [name for name in self._grammar.templates if name.endswith(".situation")]
+            parts.insert(0, self._pick(chance.choice(stories) if stories else "neutral"))  # which the wish overrules
         if chance.random() < 0.3 and not situation:
             parts[0] = self._pick("opener") + self._gap + parts[0]
         for _ in range(chance.choice((0, 0, 0, 1, 1, 2, 3))):
@@ -254,7 +235,7 @@ class _Maker:
     def _words(self, template: str, label: str) -> str:
         """A few words of an objective among small words, in any order."""
         chance = self._chance
-        parts = [self._grammar.draw(template, chance, self._slots)]
+        parts = [self._draw(template)]
         parts += [self._pick(label) for _ in range(chance.choice((0, 1, 1)))]
         parts += chance.sample(self._words_by_use["small"], chance.randrange(2, 7))
         chance.shuffle(parts)
@@ -262,16 +243,10 @@ class _Maker:
             parts.insert(chance.choice((0, len(parts))), self._comma.strip() + self._pick("constraint"))
         return self._gap.join(parts)
 
-    def _situation(self) -> str:
-        """The story of any objective, which a plain wish overrules."""
-        names = [name for name in self._grammar.templates if name.endswith(".situation")]
-        return self._pick(self._chance.choice(names)) if names else self._pick("neutral")
-
     def _contrasted(self, wish: str, objective: str) -> str:
         """A wish beside an objective that is not wanted."""
         other = self._chance.choice([name for name in OBJECTIVES if name != objective])
-        noun = self._grammar.draw(f"<{_NOUNS[other]}>", self._chance, self._slots)
-        contrast = self._pick("contrast", {"other": lambda _: noun})
+        contrast = self._pick("contrast", other=self._draw(f"<{_NOUNS[other]}>"))
         if self._chance.random() < 0.6 or contrast.endswith((",", ":", "\uff0c")):
             return contrast + self._gap + wish
         return wish + self._comma + contrast
@@ -279,7 +254,7 @@ class _Maker:
     def _other(self, template: str, label: str) -> str:
         """What is no wish, at times among other sentences."""
         chance = self._chance
-        text = self._grammar.draw(template, chance, self._slots)
+        text = self._draw(template)
         kind = label.partition(".")[0]
         if chance.random() < (0.2 if kind != "question" else 0.1):
             text = self._pick("opener") + self._gap + text
@@ -315,6 +290,20 @@ _ASKED = ("?", "？", "吗")
 """How most questions end."""
 
 
+def lines_of(folder: Path) -> Iterator[tuple[str, str]]:
+    """Every line that is written down in a folder, with the name of its file.
+
+    Raises:
+        InputError: there are none; an installed package leaves them out.
+    """
+    paths = sorted(folder.glob("*.t??"))
+    if not paths:
+        raise InputError(f"no sentences in {folder}: train from a checkout of the sources, which has them")
+    for path in paths:
+        for line in path.read_text(encoding="utf-8").splitlines():
+            yield path.stem, line
+
+
 @dataclass(frozen=True, kw_only=True)
 class Spoken:
     """A sentence with its label; ``constraints`` are None where nobody wrote them down.
@@ -340,44 +329,31 @@ class Spoken:
 
 
 def spoken(folder: Path = SPOKEN) -> Iterator[Spoken]:
-    """The sentences of all languages.
-
-    Raises:
-        InputError: they are not here; an installed package leaves them out.
-    """
-    paths = sorted(folder.glob("*.tsv"))
-    if not paths:
-        raise InputError(f"no sentences in {folder}: train from a checkout of the sources, which has them")
-    for path in paths:
-        for line in path.read_text(encoding="utf-8").splitlines():
-            label, text, *more = line.split("\t")
-            language, _, near = path.stem.partition("_")
-            yield Spoken(
-                text=text, label=label, language=language, near=bool(near), turned=near == "turned",
-                constraints=json.loads(more[0]) if more else None,
-            )  # fmt: skip
+    """The sentences of all languages."""
+    for name, line in lines_of(folder):
+        label, text, *more = line.split("\t")
+        language, _, near = name.partition("_")
+        yield Spoken(
+            text=text, label=label, language=language, near=bool(near), turned=near == "turned",
+            constraints=json.loads(more[0]) if more else None,
+        )  # fmt: skip
 
 
-def framed(folder: Path = FRAMES) -> Iterator[tuple[str, bool, str]]:
-    """Each frame, filled with wishes, whether it orders something, and the kind of its wish.
-
-    Raises:
-        InputError: there are no frames; an installed package leaves them out.
-    """
-    paths = sorted(folder.glob("*.tsv"))
-    if not paths:
-        raise InputError(f"no frames in {folder}: train from a checkout of the sources, which has them")
-    spoken_ones = [each for each in spoken() if each.label in OBJECTIVES and len(each.text) <= _LONGEST]
-    for path in paths:
-        drawn = list(itertools.islice(wishes(path.stem, random.Random(1)), _CHOICE))
-        by_people = [(each.text, each.label) for each in spoken_ones if each.language == path.stem]
-        for line in path.read_text(encoding="utf-8").splitlines():
-            label, frame = line.split("\t")
-            chance = random.Random(f"1 {frame}")  # what one is filled with hangs on no other
-            for turn in range(FILLED):
-                wish, kind = chance.choice(drawn if turn % 2 else by_people)
-                wish = wish.rstrip(".!。！")
-                yield frame.replace("{}", wish[:1].lower() + wish[1:]), label == "order", kind
+def framed() -> Iterator[tuple[str, bool, str]]:
+    """Each frame, filled with wishes, whether it orders something, and the kind of its wish."""
+    makers = {each: _Maker(each, random.Random(1)) for each in LANGUAGES}
+    drawn = {each: [maker.wish() for _ in range(_CHOICE)] for each, maker in makers.items()}
+    by_people: dict[str, list[tuple[str, str]]] = {each: [] for each in LANGUAGES}
+    for each in spoken():
+        if each.label in OBJECTIVES and len(each.text) <= _LONGEST:
+            by_people[each.language].append((each.text, each.label))
+    for language, line in lines_of(FRAMES):
+        label, frame = line.split("\t")
+        chance = random.Random(f"1 {frame}")  # what one is filled with hangs on no other
+        for turn in range(FILLED):
+            wish, kind = chance.choice((drawn if turn % 2 else by_people)[language])
+            wish = wish.rstrip(".!。！")
+            yield frame.replace("{}", wish[:1].lower() + wish[1:]), label == "order", kind
 
 
 def in_talks() -> Iterator[tuple[str, bool]]:
@@ -410,11 +386,7 @@ class Example(NamedTuple):
 
 
 def examples() -> Iterator[Example]:
-    """All of them; the same each time.
-
-    Raises:
-        InputError: the sentences are not here; an installed package leaves them out.
-    """
+    """All of them; the same each time."""
     for text, label in sorted(set(sentences())):
         aim, tells = label in OBJECTIVES, label.startswith(("command", "question"))
         yield Example(

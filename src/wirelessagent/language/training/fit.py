@@ -1,27 +1,21 @@
-"""The fit: multinomial logistic regression by adaptive gradient steps, weights rounded to eight bits."""
+"""What the trainers share: features made by some processes, a matrix of them, weights of eight bits, and the file."""
 
 from __future__ import annotations
 
 import logging
 import multiprocessing
+import sys
+import time
 from collections.abc import Callable, Sequence
-from typing import TypeVar
+from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
-from wirelessagent.kernels.supply import foreground
-from wirelessagent.language.training.fit_kernel import one_pass
-
 Item = TypeVar("Item")
 Made = TypeVar("Made")
-_PASSES, _STEP = 6, 0.15
-"""More of them tell sentences apart better that may be orders, and frames in other words worse."""
-
-_AVERAGED, _EPSILON = 2, 1e-3
-"""Passes whose weights are averaged, and what squares begin at."""
-
 _LOG = logging.getLogger(__name__)
 
 
@@ -30,7 +24,15 @@ def matrix_of(columns: Sequence[npt.NDArray[np.int64]], width: int) -> sparse.cs
     sizes = np.array([len(each) for each in columns])
     values = np.repeat(1 / np.sqrt(sizes), sizes)
     starts = np.concatenate([[0], np.cumsum(sizes)])
-    return sparse.csr_matrix((values.astype(np.float32), np.concatenate(columns), starts), shape=(len(columns), width))
+    return sparse.csr_matrix((values, np.concatenate(columns), starts), shape=(len(columns), width))
+
+
+_TASK = list[Callable[[int], Any]]()
+"""What forked processes find there, as not every item can be sent to them."""
+
+
+def _done(place: int) -> Any:
+    return _TASK[0](place)
 
 
 def in_parallel(
@@ -39,36 +41,21 @@ def in_parallel(
     """What some processes make of each item, in order; one process is this one."""
     if processes == 1:
         return list(map(do, items))
+    _TASK[:] = [lambda place: do(items[place])]
     with multiprocessing.get_context("fork").Pool(processes) as pool:
-        return pool.map(do, items, chunksize=at_once)
+        return pool.map(_done, range(len(items)), chunksize=at_once)
 
 
-@foreground()
-def fit(
-    rows: sparse.csr_matrix, right: npt.NDArray[np.bool_], weight: npt.NDArray[np.float64]
-) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
-    """Weights (bucket, label) and intercepts (label,) that make the ``right`` (sentence, label) labels likely.
-
-    ``weight`` (sentence,) says how much each counts. The order of the sentences is drawn with a fixed seed: equal
-    sentences make equal weights.
-    """
-    sentences, labels = right.shape
-    share = right @ (weight @ right) / weight.sum()
-    importance = weight * (labels * share) ** -0.4  # rare labels count more, though not equally
-    importance = np.asarray(importance / importance.mean(), dtype=np.float32)
-    weights = np.zeros((rows.shape[1] + 1, labels), np.float32)
-    squares, mean, chance = np.full_like(weights, _EPSILON), np.zeros_like(weights), np.random.default_rng(1)
-    for turn in range(_PASSES):
-        order = chance.permutation(sentences)
-        lost = one_pass(order, rows.indptr, rows.indices, rows.data, right, importance, weights, squares, _STEP)
-        _LOG.info("pass %d, loss %.3f", turn + 1, lost / sentences)
-        if turn >= _PASSES - _AVERAGED:
-            mean += weights / _AVERAGED
-    return mean[:-1], mean[-1]
-
-
-def rounded(weights: npt.NDArray[np.float32], faint: int) -> tuple[npt.NDArray[np.int8], npt.NDArray[np.float32]]:
-    """Weights as int8, those of at most so many 127ths of the largest as none, and a scale per label."""
+def rounded(weights: npt.NDArray[np.float32], faint: int = 0) -> tuple[npt.NDArray[np.int8], npt.NDArray[np.float32]]:
+    """Weights (bucket, any) as int8, those of at most so many 127ths of the largest as none, and their scales."""
     scales = np.asarray(np.abs(weights).max(axis=0) / 127, dtype=np.float32)
     found = np.asarray(np.rint(weights / scales), dtype=np.int8)
     return np.where(np.abs(found) > faint, found, np.int8(0)), scales
+
+
+def write(shipped: Path, make: Callable[[Path], object]) -> None:
+    """Make a model and write it to the file that the command line names, or to the one that is shipped."""
+    logging.basicConfig(level=logging.INFO, format="%(message)s")
+    path, start = Path(sys.argv[1]) if len(sys.argv) > 1 else shipped, time.perf_counter()
+    make(path)
+    _LOG.info("%s: %d kB (%.0f s)", path.name, path.stat().st_size // 1000, time.perf_counter() - start)

@@ -9,23 +9,25 @@ what a meaning cannot show: figures to ask about, and users who stay.
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from wirelessagent.language.conversation.possible import POWERS, RATES
 from wirelessagent.language.figure_roles import LABELS
-from wirelessagent.language.intent import EVERYBODY
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
 from wirelessagent.language.judged import BORROWING, Look, figures_of
 from wirelessagent.language.mentions import Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.training.examples import spoken
-from wirelessagent.model.errors import InputError
+from wirelessagent.language.training.examples import lines_of, spoken
 
-MARKED = Path(__file__).with_name("marked")
+MARKED, MEANINGS = Path(__file__).with_name("marked"), Path(__file__).with_name("meanings")
 _MARK = re.compile(r"\[([^\[\]]+)\]\{(\w+)\}")
 _CHOICE = re.compile(r"<([^<>]*\|[^<>]*)>")
 _MEANS = {
@@ -35,27 +37,10 @@ _MEANS = {
 }  # fmt: skip
 
 
-def marked(folder: Path = MARKED) -> list[str]:
-    """The marked sentences.
-
-    Raises:
-        InputError: there are none; an installed package leaves them out.
-    """
-    lines = [line for path in sorted(folder.glob("*.txt")) for line in path.read_text(encoding="utf-8").splitlines()]
-    found = [sentence for line in lines for sentence in _chosen(line)]
-    if not found:
-        raise InputError(f"no marked sentences in {folder}: train from a checkout of the sources, which has them")
-    return found
-
-
-def _chosen(line: str) -> Iterator[str]:
-    """Each sentence that a line with choices stands for."""
-    choice = _CHOICE.search(line)
-    if choice is None:
-        yield line
-        return
-    for words in choice[1].split("|"):
-        yield from _chosen(line[: choice.start()] + words + line[choice.end() :])
+def marked() -> list[str]:
+    """The marked sentences, each that a line with choices stands for."""
+    choices = ((part.split("|") for part in _CHOICE.split(line)) for _, line in lines_of(MARKED))
+    return ["".join(parts) for each in choices for parts in itertools.product(*each)]
 
 
 def unmarked(line: str) -> tuple[str, list[tuple[int, int, str]]]:
@@ -78,12 +63,12 @@ class Marked:
     def __init__(self, line: str) -> None:
         self.text, self._marks = unmarked(line)
 
-    def _roles(self, start: int, end: int) -> set[str]:
-        return {role for first, last, role in self._marks if start < last and first < end}
+    def _roles(self, item: Number | Mention | Quantity) -> set[str]:
+        return {role for first, last, role in self._marks if item.start < last and first < item.end}
 
     def of_number(self, number: Number) -> set[str]:
         """A user, or a figure that borrows a unit; it describes where it is not marked, but for "twice"."""
-        roles = self._roles(number.start, number.end)
+        roles = self._roles(number)
         if not roles and number.form == "times":
             return set()
         if roles == {"unclear"}:
@@ -94,23 +79,16 @@ class Marked:
         return {next(means, "harmless")}
 
     def of_user(self, mention: Mention, _: Sequence[Mention]) -> set[str]:
-        return self._roles(mention.start, mention.end)
-
-    def of_pronoun(self, _: Mention, __: Sequence[Mention]) -> set[str]:
-        return set()
+        return self._roles(mention) if mention.role == "named" else set()
 
     def of_figure(self, figure: Quantity) -> set[str]:
-        return self._roles(figure.start, figure.end)
+        return self._roles(figure)
 
-    def owners(self, _: Quantity) -> set[str]:
-        """Whose a rate is, marks do not say."""
-        return set()
-
-    def weighed(self, _: float) -> set[str]:
+    def owners(self, _: float, *__: str) -> set[str]:
+        """Whose a figure is, marks do not say."""
         return set()
 
 
-MEANINGS = Path(__file__).with_name("meanings")
 _CLOSE = 1e-6
 _ENDS = re.compile(r"\s*(?:$|[,.;:!?)\uff0c。；、])")
 _NOTHING = {"none", "stale", "refused"}
@@ -119,10 +97,9 @@ _MAX_POWER_W = 20.0  # whose shares sentences say
 
 def sentences() -> Iterator[tuple[str, Mapping[str, Any]]]:
     """(sentence, constraints)."""
-    for path in sorted(MEANINGS.glob("*.tsv")):
-        for line in path.read_text(encoding="utf-8").splitlines():
-            text, _, meaning = line.partition("\t")
-            yield text, json.loads(meaning)
+    for _, line in lines_of(MEANINGS):
+        text, meaning = line.split("\t")
+        yield text, json.loads(meaning)
     for each in spoken():
         if each.constraints is not None:
             yield each.text, each.constraints
@@ -132,34 +109,21 @@ class Meant:
     """The meaning of a sentence, asked by figure."""
 
     def __init__(self, constraints: Mapping[str, Any], look: Look) -> None:
-        self._constraints, self._look = constraints, look
-        self._values = {
-            name: _by_user(constraints[name])
-            for name in ("min_rate_bps", "max_rate_bps", "weights")
-            if name in constraints
-        }
-        self._powers = {
-            name: float(constraints[name])
-            for name in ("max_power_w", "circuit_power_w", "subcarrier_max_power_w")
-            if name in constraints
-        }
-        self._users = {name: {str(user) for user in constraints.get(name, ())} for name in ("users", "leave_out")}
-        self._all_users = self._users["users"] | self._users["leave_out"]
-        for figures in self._values.values():
-            self._all_users |= figures.keys() - {EVERYBODY}
-        self._rates = [
-            value
-            for name in ("min_rate_bps", "max_rate_bps")
-            for value in self._values.get(name, {}).values()
-            if value > 0  # nobody says a floor of zero in figures
-        ]
+        self._look = look
+        self._stated = defaultdict[str, dict[str, float]](dict)
+        self._stated.update((name, _by_user(value)) for name, value in constraints.items())
+        self._powers = {name: value for name in POWERS for value in self._stated[name].values()}
+        self._outage = self._stated["outage_probability"].get(EVERYBODY)
+        self._users = {user for name in (*FIGURES_OF_USERS, *LISTS_OF_USERS) for user in self._stated[name]}
+        figures = (value for name in RATES for value in self._stated[name].values())
+        self._rates = [value for value in figures if value > 0]  # nobody says a floor of zero in figures
         self._worth = {number: self._worth_of(number) for number in (*look.loose, *look.ones)}
         self._known = [(figure.kind, figure.value) for figure in look.figures]
         self._borrowing = {number: roles for number in self._worth for roles in [self._borrows(number)] if roles}
         self._known += [
             (BORROWING[role], self._worth[number][role]) for number, roles in self._borrowing.items() for role in roles
         ]
-        outage = constraints.get("outage_probability")
+        outage = self._outage
         self._complete = {
             "power": all(map(self._is_said, self._powers.values())),
             "rate": all(self._has("rate", value) for value in self._rates),
@@ -186,7 +150,7 @@ class Meant:
 
     def _borrows(self, number: Number) -> set[str]:
         """The role in which a number is a wanted figure that stands nowhere with its unit."""
-        outage = self._constraints.get("outage_probability")
+        outage = self._outage
         missing = {
             "rate": [rate for rate in self._rates if not self._has("rate", rate)],
             "power": [power for power in self._powers.values() if not self._is_said(power)],
@@ -212,45 +176,37 @@ class Meant:
     def _is_unnamed_user(self, number: Number) -> bool:
         named = {user for mention in self._look.mentions for user in mention.users}
         value = number.value
-        return value is not None and value == int(value) and str(int(value)) in self._all_users - named
+        return value is not None and value == int(value) and str(int(value)) in self._users - named
 
     def of_figure(self, figure: Quantity) -> set[str]:
         if not self._complete[figure.kind]:
             return set()
         if figure.kind == "ratio":
-            outage = self._constraints.get("outage_probability", -1.0)
+            outage = -1.0 if self._outage is None else self._outage
             meant = {"share": self._is_share(figure.value), "outage": _close(figure.value, outage),
                      "reliability": _close(1 - figure.value, outage)}  # fmt: skip
             return {role for role, is_one in meant.items() if is_one} or {"none", "missing"}
         if figure.kind == "power":
             return {name for name, value in self._powers.items() if _close(value, figure.value)} or _NOTHING
-        whose = {
-            name: {user for user, value in self._values.get(name, {}).items() if _close(value, figure.value)}
-            for name in ("min_rate_bps", "max_rate_bps")
-        }
+        whose = {name: self.owners(figure.value, name) for name in RATES}
         if set.intersection(*whose.values()) and set(self._rates) == {figure.value}:
             return {"both"}
         return {name for name, users in whose.items() if users} or _NOTHING
 
     def of_user(self, mention: Mention, found: Sequence[Mention]) -> set[str]:
+        if mention.role == "pronoun":
+            somebody = antecedent(mention, found)
+            return {"given"} if somebody is None else {"given", *self.of_user(somebody, found)}
         users = set(mention.users)
         again = any(other is not mention and users & set(other.users) for other in found)
         for name in ("leave_out", "users"):
-            if users <= self._users[name]:
+            if users <= self._stated[name].keys():
                 return {name, "given"} if again else {name}
-            if users & self._users[name]:
+            if users & self._stated[name].keys():
                 return set()
-        floors = self._values.get("min_rate_bps", {})
-        if any(floors.get(user) == 0 for user in users):
+        if any(self._stated["min_rate_bps"].get(user) == 0 for user in users):
             return {"exempt", "given"} if again else {"exempt"}
-        given = {user for figures in self._values.values() for user in figures}
-        if users & given:
-            return {"given"}
-        return {"kept"}
-
-    def of_pronoun(self, pronoun: Mention, found: Sequence[Mention]) -> set[str]:
-        named = [other for other in found if other.role == "named" and other.end <= pronoun.start]
-        return {"given", *self.of_user(named[-1], found)} if named else {"given"}
+        return {"given"} if users & self._users else {"kept"}
 
     def of_number(self, number: Number) -> set[str]:
         value = None if number.value is None else float(number.value)
@@ -258,51 +214,42 @@ class Meant:
             return {"limit"} if not all(self._complete.values()) else set()
         if number in self._borrowing:
             return self._borrowing[number]
-        scaled = any(_is_scaled(value, rate, (1.0, 1e3, 1e6, 8e3, 8e6)) for rate in self._rates)
-        powers = any(_is_power(value, power) for power in self._powers.values())
-        if (scaled and not self._complete["rate"]) or (powers and not self._complete["power"]):
+        watts = [value, value * 1e-3, *([10 ** ((value - 30) / 10)] if value < 300 else [])]  # in mW, in dBm
+        is_rate = any(_close(value * factor, rate) for factor in (1.0, 1e3, 1e6, 8e3, 8e6) for rate in self._rates)
+        is_power = any(_close(each, power) for each in watts for power in self._powers.values())
+        if (is_rate and not self._complete["rate"]) or (is_power and not self._complete["power"]):
             return set() if self._is_unnamed_user(number) else {"limit"}
         if number in self._look.ones:
-            return {"harmless"} if all(self._complete.values()) and "weights" not in self._values else set()
-        outage = self._constraints.get("outage_probability")
-        if not self._complete["ratio"] and outage is not None:
+            return {"harmless"} if all(self._complete.values()) and not self._stated["weights"] else set()
+        if not self._complete["ratio"]:
             return {"limit"}
-        known = self._all_users | self._values.get("weights", {}).keys()
-        user = number.form != "times" and value == int(value) and str(int(value)) in known
-        weight = any(_close(value, each) for each in self._values.get("weights", {}).values())
-        group = _close(value, self._constraints.get("resource_block_group_size", 0.0))
+        user = number.form != "times" and value == int(value) and str(int(value)) in self._users
+        weight = bool(self.owners(value, "weights"))
+        group = _close(value, self._stated["resource_block_group_size"].get(EVERYBODY, 0.0))
         roles = {name for name, is_one in (("user", user), ("weight", weight), ("group", group)) if is_one}
         if roles:
             return roles if len(roles) == 1 else set()
-        if value == 1 and "weights" in self._values:
+        if value == 1 and self._stated["weights"]:
             return {"weight", "harmless"}  # "all others 1" is what they count anyway
         return {"harmless"} if all(self._complete.values()) else set()
 
-    def owners(self, figure: Quantity) -> set[str]:
-        """The users whose rate a figure is."""
-        figures = [self._values.get(name, {}) for name in ("min_rate_bps", "max_rate_bps")]
-        found = {user for each in figures for user, value in each.items() if _close(value, figure.value)}
-        return found | self._users["users"] if EVERYBODY in found else found
-
-    def weighed(self, value: float) -> set[str]:
-        return {user for user, weight in self._values.get("weights", {}).items() if _close(weight, value)}
+    def owners(self, value: float, *kinds: str) -> set[str]:
+        """Whose figure of these kinds it is, also of those who are served alone where it is everybody's."""
+        found = {user for kind in kinds for user, each in self._stated[kind].items() if _close(each, value)}
+        return found | self._stated["users"].keys() if EVERYBODY in found else found
 
 
-def _by_user(value: float | Mapping[str, float]) -> dict[str, float]:
-    return (
-        {str(user): float(each) for user, each in value.items()}
-        if isinstance(value, Mapping)
-        else {EVERYBODY: float(value)}
-    )
+def antecedent(pronoun: Mention, found: Sequence[Mention]) -> Mention | None:
+    """Who is named last ahead of a pronoun."""
+    return next((each for each in found[::-1] if each.role == "named" and each.end <= pronoun.start), None)
+
+
+def _by_user(value: float | Mapping[str, float] | Sequence[str]) -> dict[str, float]:
+    """A constraint's figures by user; a user of a list counts as 1."""
+    if isinstance(value, Mapping):
+        return {str(user): float(each) for user, each in value.items()}
+    return {str(user): 1.0 for user in value} if isinstance(value, Sequence) else {EVERYBODY: float(value)}
 
 
 def _close(one: float, other: float) -> bool:
     return math.isclose(one, other, rel_tol=_CLOSE, abs_tol=1e-12)
-
-
-def _is_scaled(value: float, other: float, factors: Iterable[float]) -> bool:
-    return any(_close(value * factor, other) for factor in factors)
-
-
-def _is_power(value: float, power: float) -> bool:
-    return _is_scaled(value, power, (1.0, 1e-3)) or (value < 300 and _close(10 ** ((value - 30) / 10), power))

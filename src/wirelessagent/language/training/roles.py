@@ -14,11 +14,8 @@ by number.
 from __future__ import annotations
 
 import itertools
-import logging
 import random
 import re
-import sys
-import time
 import zlib
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -28,24 +25,25 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy import optimize, sparse
+from scipy import optimize
 
+from wirelessagent.language.conversation.possible import RATES
 from wirelessagent.language.dictated import as_meant
 from wirelessagent.language.figure_roles import BUCKETS, LABELS, ROLES_FILE, View, hashed
 from wirelessagent.language.intent import EVERYBODY
 from wirelessagent.language.judged import BORROWING, Look, first_look, second_look
 from wirelessagent.language.mentions import Mention, mentions
+from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import measures, parse_quantities
-from wirelessagent.language.text import USER_NOUN, normalise, replaced
-from wirelessagent.language.training.examples import FILLED, FILLINGS, OBJECTIVES, framed, spoken
-from wirelessagent.language.training.fit import rounded
-from wirelessagent.language.training.meant import Marked, Meant, marked, sentences, unmarked
+from wirelessagent.language.text import USER_NOUN, Span, normalise, overlaps, replaced
+from wirelessagent.language.training.examples import FILLED, FILLINGS, OBJECTIVES, framed, lines_of, spoken
+from wirelessagent.language.training.fit import matrix_of, rounded, write
+from wirelessagent.language.training.meant import Marked, Meant, antecedent, marked, sentences, unmarked
 from wirelessagent.language.training.talk_notation import talks
 from wirelessagent.language.vocabulary import language_of
 from wirelessagent.language.word_tables import table
 
 NAMED = Path(__file__).with_name("named")
-Span = tuple[int, int]
 _COUNT = 3
 """How often a marked sentence counts, beside one that has a meaning."""
 
@@ -57,8 +55,9 @@ _OF_TALKS = 3
 
 _LONG_WORD = re.compile(r"[^\W\d_\u3400-\u9fff]{5,}")
 
-_NOUN = re.compile(rf"(?i)(?P<article>\b(?:à\s+l'|de\s+l'|l'))?(?P<noun>{USER_NOUN})\s+(?=[0-9])")
-_ARTICLES = {"à l'": "au ", "de l'": "du ", "l'": "le "}
+_ARTICLES: Mapping[str, str] = table(FILLINGS, "fr")["articles"]
+_ARTICLE = "|".join(_ARTICLES).replace(" ", r"\s+")
+_NOUN = re.compile(rf"(?i)(\b(?:{_ARTICLE}))?{USER_NOUN}\s+(?=[0-9])")
 _MAY_FOLLOW = re.compile(r"\s*(?:$|[^\W\d_]|[,.;:!?)\uff0c。；、](?!\s*[0-9]))")
 
 
@@ -75,17 +74,14 @@ def without_nouns(text: str) -> str:
     >>> without_nouns("let user 3 have 1 Mbit/s and drop users 5 and 7")
     'let 3 have 1 Mbit/s and drop 5 and 7'
     """
-    plain = normalise(text)
-    spans = [(q.start, q.end) for q in parse_quantities(text)]
-    parts, place = list[str](), 0
-    for mention in mentions(plain, (), spans):
+    plain, nouns, place = normalise(text), list[tuple[int, int, str]](), 0
+    for mention in mentions(plain, (), [(q.start, q.end) for q in parse_quantities(text)]):
         noun = _NOUN.search(plain, max(place, mention.start - 5), mention.end)
-        if mention.role != "named" or noun is None or _MAY_FOLLOW.match(plain, mention.end) is None:
-            continue
-        article = _ARTICLES.get(" ".join((noun["article"] or "").lower().split()), "")
-        parts += [text[place : noun.start()], article]
-        place = noun.end()
-    return "".join([*parts, text[place:]])
+        if mention.role == "named" and noun is not None and _MAY_FOLLOW.match(plain, mention.end) is not None:
+            article = " ".join((noun[1] or "").lower().split())
+            nouns.append((noun.start(), noun.end(), _ARTICLES.get(article, "")))
+            place = noun.end()
+    return replaced(text, nouns)
 
 
 def without_units(text: str) -> str:
@@ -94,18 +90,13 @@ def without_units(text: str) -> str:
     >>> without_units("user 3 gets 2 Mbit/s, the others 1 Mbit/s")
     'user 3 gets 2 Mbit/s, the others 1'
     """
-    plain = normalise(text)
-    said, parts, place = dict[str, str](), list[str](), 0
-    for measure in measures(plain):
-        unit = measure.unit
-        if unit is None or unit.kind == "ratio" or measure.number.value is None or unit.end != measure.end:
-            continue
-        words = plain[measure.number.end : unit.end].strip().lower()
-        if said.get(unit.kind) == words and words:
-            parts.append(text[place : measure.number.end])
-            place = unit.end
-        said[unit.kind] = words
-    return "".join([*parts, text[place:]])
+    said, again = dict[str, str](), list[tuple[int, int, str]]()
+    for number, kind, unit, span in _units(text):
+        if unit and number.value is not None:
+            if unit.lower() == said.get(kind):
+                again.append((*span, ""))
+            said[kind] = unit.lower()
+    return replaced(text, again)
 
 
 def with_one_unit(text: str) -> str:
@@ -114,44 +105,46 @@ def with_one_unit(text: str) -> str:
     >>> with_one_unit("user 3 gets 2 Mbit/s, user 5 gets 1 Mbit/s")
     'user 3 gets 2, user 5 gets 1, in Mbit/s'
     """
-    plain = normalise(text)
-    rates = [each for each in measures(plain) if each.unit is not None and each.unit.kind == "rate"]
-    spans = [(each.number.end, each.end) for each in rates if each.unit is not None and each.unit.end == each.end]
-    units = {plain[start:end].strip() for start, end in spans}
-    if len(spans) < len(rates) or len(spans) < 2 or len(units) > 1 or units <= {"k", "K", "M"}:
+    rates = [(unit, span) for _, kind, unit, span in _units(text) if kind == "rate"]
+    units = {unit for unit, _ in rates}
+    if len(rates) < 2 or len(units) > 1 or units <= {"", "k", "K", "M"}:
         return text
     ways = table(FILLINGS, language_of(text))["words"]["one_unit"]
-    bare = replaced(text, ((start, end, "") for start, end in spans)).rstrip(" .!。")
+    bare = replaced(text, ((*span, "") for _, span in rates)).rstrip(" .!。")
     return str(ways[zlib.crc32(text.encode()) % len(ways)]).format(text=bare, unit=units.pop())
 
 
-def named() -> Iterator[tuple[str, list[Span], int]]:
-    """Sentences, the names in them, and how often each counts."""
+def _units(text: str) -> Iterator[tuple[Number, str, str, Span]]:
+    """Each number with a unit: the unit's kind, its words, none where more of the figure follows, and their place."""
+    plain = normalise(text)
+    for measure in measures(plain):
+        unit, start = measure.unit, measure.number.end
+        if unit is not None and unit.kind != "ratio":
+            words = plain[start : unit.end].strip() if unit.end == measure.end else ""
+            yield measure.number, unit.kind, words, (start, unit.end)
+
+
+def named() -> Iterator[tuple[str, int]]:
+    """Sentences with the names in them marked, and how often each counts."""
     chance, names = random.Random(1), defaultdict[str, list[str]](list)
-    for path in sorted(NAMED.glob("*.txt")):
-        for line in path.read_text(encoding="utf-8").splitlines():
-            text, marks = unmarked(line)
-            spans = [(start, end) for start, end, _ in marks]
-            names[path.stem] += [text[start:end] for start, end in spans]
-            yield text, spans, _COUNT
+    for language, line in lines_of(NAMED):
+        text, marks = unmarked(line)
+        names[language] += [text[start:end] for start, end, _ in marks]
+        yield line, _COUNT
     for text in _without_names():
         turn = chance.random()
         if turn < _SHARE:
-            yield misspelt(text, chance) if turn < _MISSPELT else text, [], 1
-            swapped, spans = with_names(text, names[language_of(text)], chance)
-            if spans:
-                yield swapped, spans, 1
+            yield misspelt(text, chance) if turn < _MISSPELT else text, 1
+            swapped = with_names(text, names[language_of(text)], chance)
+            if swapped != normalise(text):
+                yield swapped, 1
 
 
-def with_names(text: str, names: Sequence[str], chance: random.Random) -> tuple[str, list[Span]]:
-    """A sentence with names in the places of those whom it names by number, and where they stand."""
-    plain, spans, place, found = normalise(text), list[Span](), 0, ""
-    for mention in first_look(plain, parse_quantities(text)).mentions:
-        if mention.role == "named":
-            found, name = found + plain[place : mention.start], chance.choice(names)
-            spans.append((len(found), len(found) + len(name)))
-            found, place = found + name, mention.end
-    return found + plain[place:], spans
+def with_names(text: str, names: Sequence[str], chance: random.Random) -> str:
+    """A sentence with marked names in the places of those whom it names by number."""
+    plain = normalise(text)
+    found = (each for each in first_look(plain, parse_quantities(text)).mentions if each.role == "named")
+    return replaced(plain, ((each.start, each.end, f"[{chance.choice(names)}]{{name}}") for each in found))
 
 
 def misspelt(text: str, chance: random.Random) -> str:
@@ -215,16 +208,17 @@ def shown_by(line: str) -> Iterator[Example]:
     yield from _shown(_look(marked_one.text), marked_one)
 
 
-def named_in(text: str, names: Sequence[tuple[int, int]]) -> Iterator[Example]:
-    """What a sentence shows of words that are somebody's name, as those in the spans ``names`` are, and of others.
+def named_in(line: str) -> Iterator[Example]:
+    """What a sentence shows of words that are somebody's name, as those that are marked are, and of others.
 
     The small words of a name show nothing: "my", "on the".
     """
+    text, marks = unmarked(line)
     look = _look(text)
     plain, view = look.plain, look.view()
     for place in view.words:
         start, end = view.span(place)
-        name = any(first < end and start < last for first, last in names)
+        name = overlaps((start, end), ((first, last) for first, last, _ in marks))
         if not (name and end - start < _SMALL and plain[start].islower() and plain[start].isascii()):
             yield from _example("word", view.word(place), {"somebody" if name else "nobody"})
 
@@ -238,19 +232,16 @@ def _shown(look: Look, wanted: Meant | Marked) -> Iterator[Example]:
     users = [number for number, role in only.items() if role == "user"]
     look = second_look(look, users, {number: role for number, role in only.items() if role in BORROWING})
     view, found = look.view(), look.mentions
-    weights = [number for number, role in only.items() if role == "weight"]
     for mention in found:
-        if mention.role == "named":
+        if mention.role in ("named", "pronoun"):
             yield from _example("user", view.user(mention), wanted.of_user(mention, found))
-        elif mention.role == "pronoun":
-            yield from _example("user", view.user(mention), wanted.of_pronoun(mention, found))
     for index, figure in enumerate(look.figures):
         yield from _example(figure.kind, view.figure(index), wanted.of_figure(figure))
         if figure.kind == "rate":
-            yield from _link(view, figure.start, found, wanted.owners(figure))
-    for number in weights:
-        if number.value is not None:
-            yield from _link(view, number.start, found, wanted.weighed(float(number.value)))
+            yield from _link(view, figure.start, found, wanted.owners(figure.value, *RATES))
+    for number, role in only.items():
+        if role == "weight" and number.value is not None:
+            yield from _link(view, number.start, found, wanted.owners(float(number.value), "weights"))
 
 
 def _example(question: str, features: set[str], roles: set[str]) -> Iterator[Example]:
@@ -262,10 +253,9 @@ def _example(question: str, features: set[str], roles: set[str]) -> Iterator[Exa
 def _link(view: View, start: int, found: Sequence[Mention], owners: set[str]) -> Iterator[Example]:
     candidates: list[Mention | None] = [*found, None]
     right = [_is_for(mention, found, owners) for mention in candidates]
-    if EVERYBODY in owners and any(m is not None and m.role == "others" for m in candidates):
-        right = [ok and m is not None and m.role != "everybody" for ok, m in zip(right, candidates, strict=True)]
-        if not any(right):
-            right = [_is_for(mention, found, owners) for mention in candidates]
+    if EVERYBODY in owners and any(mention.role == "others" for mention in found):
+        alone = [ok and m is not None and m.role != "everybody" for ok, m in zip(right, candidates, strict=True)]
+        right = alone if any(alone) else right
     if any(right):
         rows = [hashed("link", each) for each in view.owners(start, candidates)]
         yield Example(question="link", rows=tuple(rows), right=tuple(right))
@@ -274,27 +264,29 @@ def _link(view: View, start: int, found: Sequence[Mention], owners: set[str]) ->
 def _is_for(mention: Mention | None, found: Sequence[Mention], owners: set[str]) -> bool:
     if mention is None or mention.role in ("others", "everybody"):
         return EVERYBODY in owners
-    if mention.role == "pronoun":
-        named = [other for other in found if other.role == "named" and other.end <= mention.start]
-        return bool(named) and owners.issuperset(named[-1].users)
-    return owners.issuperset(mention.users)
+    somebody = antecedent(mention, found) if mention.role == "pronoun" else mention
+    return somebody is not None and owners.issuperset(somebody.users)
 
 
 def fit(question: str, shown: Sequence[Example], ridge: float = _RIDGE) -> npt.NDArray[np.float32]:
     """Weights (bucket, label) that make the right answers likeliest, with a ridge."""
     classes = len(LABELS[question])
     rows = [row for example in shown for row in example.rows]
-    matrix = _matrix(rows)
+    matrix = matrix_of(rows, BUCKETS)
     # Row i of ``group`` belongs to sentence ``owner[i]``: answers of one example compete with each other.
-    owner = np.repeat(np.arange(len(shown)), [len(example.rows) for example in shown])
+    counts = [len(example.rows) for example in shown]
+    owner, begins = np.repeat(np.arange(len(shown)), counts), np.cumsum([0, *counts[:-1]])
     right = np.array([each for example in shown for each in example.right], dtype=bool).reshape(len(rows), classes)
     columns = matrix.T.tocsr()
-    importance = _importance(right, owner, len(shown)) if classes > 1 else np.full(len(shown), 1 / len(shown))
+    # Rare answers count more, though not equally.
+    rare = np.where(right, np.maximum(right.mean(axis=0), 1e-9) ** -_BALANCE, 0).max(axis=1)
+    importance = np.maximum.reduceat(rare, begins) if classes > 1 else np.ones(len(shown))
+    importance /= importance.sum()
 
     def loss(flat: npt.NDArray[np.float64]) -> tuple[float, npt.NDArray[np.float64]]:
         weights = flat.reshape(BUCKETS, classes)
         score = np.asarray(matrix @ weights)
-        score -= _most(score.max(axis=1), owner, len(shown))[owner][:, None]
+        score -= np.maximum.reduceat(score.max(axis=1), begins)[owner][:, None]
         likely = np.exp(score)
         likely /= np.bincount(owner, likely.sum(axis=1), len(shown))[owner][:, None]
         chosen = likely * right
@@ -309,43 +301,20 @@ def fit(question: str, shown: Sequence[Example], ridge: float = _RIDGE) -> npt.N
     return np.asarray(found.x, dtype=np.float32).reshape(BUCKETS, classes)
 
 
-def _importance(right: npt.NDArray[np.bool_], owner: npt.NDArray[np.int64], count: int) -> npt.NDArray[np.float64]:
-    """What each example counts: rare answers more, though not equally."""
-    share = right.mean(axis=0)
-    rows = np.where(right, np.maximum(share, 1e-9) ** -_BALANCE, 0).max(axis=1)
-    importance = np.zeros(count)
-    np.maximum.at(importance, owner, rows)
-    return importance / importance.sum()
-
-
-def _most(values: npt.NDArray[np.float64], owner: npt.NDArray[np.int64], count: int) -> npt.NDArray[np.float64]:
-    most = np.full(count, -np.inf)
-    np.maximum.at(most, owner, values)
-    return most
-
-
-def _matrix(rows: Sequence[npt.NDArray[np.int64]]) -> sparse.csr_matrix:
-    sizes = np.array([len(row) for row in rows])
-    values = np.repeat(1 / np.sqrt(sizes), sizes)
-    starts = np.concatenate([[0], np.cumsum(sizes)])
-    return sparse.csr_matrix((values, np.concatenate(rows), starts), shape=(len(rows), BUCKETS))
-
-
 def trained(sentences: Iterable[tuple[str, Mapping[str, Any]]]) -> dict[str, npt.NDArray[np.float32]]:
     """The weights of each question, from sentences with their constraints."""
     shown: dict[str, list[Example]] = {question: [] for question in LABELS}
     for text, constraints in sentences:
         for example in examples(text, constraints):
             shown[example.question].append(example)
-        for words in shortened(text):
-            for example in examples(words, constraints):
-                if example.question in _SHORTENED:
-                    shown[example.question].append(example)
+        for example in itertools.chain.from_iterable(examples(words, constraints) for words in shortened(text)):
+            if example.question in _SHORTENED:
+                shown[example.question].append(example)
     for line in marked():
         for example in shown_by(line):
             shown[example.question] += [example] * _MARKED_COUNT
-    for text, names, count in named():
-        for example in named_in(text, names):
+    for line, count in named():
+        for example in named_in(line):
             shown["word"] += [example] * count
     return {question: fit(question, each) for question, each in shown.items()}
 
@@ -358,14 +327,5 @@ def save(path: Path, found: Mapping[str, npt.NDArray[np.float32]]) -> None:
     np.savez_compressed(path, allow_pickle=False, **arrays)
 
 
-def main(path: Path) -> None:
-    """Read, fit and write."""
-    logging.basicConfig(level=logging.INFO, format="%(message)s")
-    start = time.perf_counter()
-    save(path, trained(sentences()))
-    seconds = time.perf_counter() - start
-    logging.getLogger(__name__).info("%s: %d kB (%.0f s)", path.name, path.stat().st_size // 1000, seconds)
-
-
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else ROLES_FILE)
+    write(ROLES_FILE, lambda path: save(path, trained(sentences())))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -29,7 +29,7 @@ from wirelessagent.language.acts import (
 )
 from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.conversation.changes import dropped
-from wirelessagent.language.conversation.possible import Effect, effect_between
+from wirelessagent.language.conversation.possible import Effect, effect_between, users_of
 from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, FIGURES_OF_USERS
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.request import Request, applied, figures_of
@@ -62,7 +62,6 @@ class Example:
     undoes: bool
     supposed: bool
     may_suppose: bool
-    language: str
 
 
 @dataclass
@@ -100,7 +99,7 @@ class _Talk:
         if context is not None:
             effect = effect_between(before, after, _NUMBERS)
             example = Example(
-                text=text, context=context, effect=effect, language=self.language, supposed=supposed,
+                text=text, context=context, effect=effect, supposed=supposed,
                 may_suppose=self.may_suppose and not effect, undoes=[type(act) for act in acts] == [Undo],
             )  # fmt: skip
         self.supposed = tuple(acts) if supposed else ()
@@ -120,7 +119,7 @@ class _Talk:
                     raise NotationError(f"{notation}: nothing to undo")
                 now, said = self.past[-steps], [Undo(steps=steps)]
             else:
-                said = self._acts(words, now, _named(acts) or self.named)
+                said = self._acts(words, now, users_of(acts) or self.named)
                 now = now and applied(now, said, radiated_w=_RADIATED_W)[0]
             acts += said
         if self.request is None and not any(isinstance(act, Aim) for act in acts):
@@ -158,7 +157,7 @@ class _Talk:
             one, other = (Named((user,)) for user in whom.users) if isinstance(whom, Named) else (None, None)
             if one is None or other is None:
                 raise NotationError(" ".join(words))
-            first, second = (own.get(each.users[0], own.get(EVERYBODY, 0.0)) for each in (one, other))
+            first, second = (own.get(user, own.get(EVERYBODY, 0.0)) for (user,) in (one.users, other.users))
             return [Limit(kind=kind, value=second, whom=one), Limit(kind=kind, value=first, whom=other)]
         figure = float(rest[1].replace("_", ""))
         if isinstance(whom, Others) and verb == "limit" and not own.keys() - {EVERYBODY}:
@@ -174,7 +173,7 @@ class _Talk:
         found = Anchored.of(text, self.language, USERS).named(len(USERS))
         changing = [act for act in acts if isinstance(act, _CHANGING)]
         self.spoken_of = found if found or changing or supposes else self.spoken_of
-        self.named = _named(acts) or found or self.named
+        self.named = users_of(acts) or found or self.named
         steps = sum(act.steps or 1 for act in acts if isinstance(act, Undo))
         if steps:
             base = self.past[-steps]
@@ -186,12 +185,6 @@ class _Talk:
         self.acts = tuple(acts) if changing else self.acts
         self.earlier.append(tuple(acts))
         self.request = after
-
-
-def _named(acts: Iterable[Act]) -> tuple[str, ...]:
-    """The users whom acts name."""
-    named = (user for act in acts if isinstance(whom := getattr(act, "whom", None), Named) for user in whom.users)
-    return tuple(dict.fromkeys(named))
 
 
 def _whom(words: str) -> Whom:

@@ -16,11 +16,8 @@ import dataclasses
 import functools
 import logging
 import math
-import sys
-import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -35,7 +32,7 @@ from wirelessagent.language.conversation.signs import BUCKETS, TOGETHER, Read, S
 from wirelessagent.language.conversation.weighing import BLOCK, OWN, TALKS_FILE, Meaning, TalkModel, meanings
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.request import Key
-from wirelessagent.language.training.fit import in_parallel, rounded
+from wirelessagent.language.training.fit import in_parallel, rounded, write
 from wirelessagent.language.training.fit_kernel import Places, one_pass_of_talks, scores_of
 from wirelessagent.language.training.talk_notation import USERS, Example, examples
 
@@ -120,9 +117,9 @@ def is_same(one: Effect, other: Effect) -> bool:
 def parsed(example: Example) -> Parsed:
     """Everything that a line may mean, as numbers."""
     line = Line.of(example.text, example.context)
-    possible = Possible(Anchored.of(example.text, example.language, USERS), example.context)
+    possible = Possible(Anchored.of(example.text, example.context.language, USERS), example.context)
     read = Read.of(line, read_by_rules(example.text, example.context, OfflineRecogniser()), possible)
-    signs = Signs(line, possible, read, example.language)
+    signs = Signs(line, possible, read, example.context.language)
     changes = tuple(signs.changes())
     named = [signs.blocks(change) for change in changes]
     blocks = {name: words for each in named for name, words in each}
@@ -153,20 +150,6 @@ def _light(changes: Sequence[Change]) -> tuple[Change, ...]:
     return tuple(found)
 
 
-_EXAMPLES = list[Example]()
-"""What forked processes find there, as contexts cannot be sent to them."""
-
-
-def _parsed_at(place: int) -> Parsed:
-    return parsed(_EXAMPLES[place])
-
-
-def parsed_all(found: Sequence[Example], processes: int = 2) -> list[Parsed]:
-    """All examples as numbers."""
-    _EXAMPLES[:] = found
-    return in_parallel(_parsed_at, range(len(found)), processes, at_once=20)
-
-
 @foreground()
 def trained(lines: Sequence[Parsed]) -> TalkModel:
     """The model that a few rounds make: in each, changes go together that scored best in the one before."""
@@ -188,8 +171,8 @@ def trained(lines: Sequence[Parsed]) -> TalkModel:
             _LOG.info("%d of %d lines, loss %.3f", len(learnt), len(lines), loss / len(learnt))
             if turn == len(_PASSES) - 1:
                 mean += weights / count
-    found, scales = rounded(mean[:, None], _FAINT)
-    return TalkModel(weights=found[:, 0], scale=float(scales[0]), together=joint)
+    found, scale = rounded(mean, _FAINT)
+    return TalkModel(weights=found, scale=float(scale), together=joint)
 
 
 def _meant(lines: Sequence[Parsed], scores: npt.NDArray[np.float32], changes_at: npt.NDArray[np.int64]) -> tuple[
@@ -211,15 +194,5 @@ def _meant_by(line: Parsed, scores: npt.NDArray[np.float32]) -> tuple[Flat, Flat
     return Flat.of([each.places for each in found]), Flat.of(signs), np.array([line.is_meant(each) for each in found])
 
 
-def main(path: Path) -> None:
-    """Read, fit, write."""
-    logging.basicConfig(level=logging.INFO, format="%(message)s")
-    start = time.perf_counter()
-    lines = parsed_all(list(examples()))
-    _LOG.info("%d lines (%.0f s)", len(lines), time.perf_counter() - start)
-    trained(lines).save(path)
-    _LOG.info("%s: %d kB (%.0f s)", path.name, path.stat().st_size // 1000, time.perf_counter() - start)
-
-
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else TALKS_FILE)
+    write(TALKS_FILE, lambda path: trained(in_parallel(parsed, list(examples()), at_once=20)).save(path))
