@@ -16,7 +16,7 @@ import numpy as np
 from wirelessagent import chain, plugins
 from wirelessagent.language.acts import renamed
 from wirelessagent.language.conversation.anchors import Anchored
-from wirelessagent.language.conversation.line import Line, group, is_all
+from wirelessagent.language.conversation.line import Line, is_all
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint, Intent
 from wirelessagent.language.recogniser import Context, Missing
 from wirelessagent.language.request import ASSUMED_MIN_RATE_BPS, Diff, Request
@@ -225,7 +225,7 @@ def completed(missing: Missing, said: str, context: Context) -> Intent | None:
         return None
     named, match = _named_alone(said, context), is_all("whom", normalise(said).lower().strip(" .!。"))
     try:
-        meant = named[0] if len(named) == 1 else group(match) if match else ""
+        meant = named[0] if len(named) == 1 else next(filter(None, match.groups()), "") if match else ""
         number, _ = user_number(meant, context.user_names, context.language or "en")
     except UnknownUserError:
         return None

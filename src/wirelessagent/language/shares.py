@@ -140,16 +140,17 @@ def _shares(plain: str) -> Iterator[_Figure]:
         if known or each.number.value is None or plain[each.start : each.end].lower().endswith(_NO_SHARE):
             continue
         if each.unit is not None and each.unit.kind == "ratio":
-            yield _Figure("ratio", each.unit.value(each.number.value), each.start, each.end)
+            yield _Figure("ratio", each.value, each.start, each.end)
         elif each.unit is None and each.factor == 1 and 0 < each.number.value < 1:
             yield _Figure("part", float(each.number.value), each.start, each.end)
 
 
 def _figures(plain: str) -> Iterator[_Figure]:
-    """Powers and rates."""
+    """Powers and rates, "700k" among them."""
     for each in measures(plain):
-        if each.unit is not None and each.unit.kind != "ratio" and each.number.value is not None:
-            yield _Figure(each.unit.kind, each.unit.value(each.number.value), each.start, each.end)
+        kind = each.unit.kind if each.unit is not None else "rate" if each.factor > 1 else "ratio"
+        if kind != "ratio" and each.number.value is not None:
+            yield _Figure(kind, each.value, each.start, each.end)
 
 
 def _written(base: _Figure, share: float) -> str:

@@ -188,10 +188,10 @@ class Meant:
             return {role for role, is_one in meant.items() if is_one} or {"none", "missing"}
         if figure.kind == "power":
             return {name for name, value in self._powers.items() if _close(value, figure.value)} or _NOTHING
-        whose = {name: self.owners(figure.value, name) for name in RATES}
-        if set.intersection(*whose.values()) and set(self._rates) == {figure.value}:
+        floors, caps = (self.owners(figure.value, name) for name in RATES)
+        if floors & caps and set(self._rates) == {figure.value}:
             return {"both"}
-        return {name for name, users in whose.items() if users} or _NOTHING
+        return {name for name, users in zip(RATES, (floors, caps), strict=True) if users} or _NOTHING
 
     def of_user(self, mention: Mention, found: Sequence[Mention]) -> set[str]:
         if mention.role == "pronoun":
