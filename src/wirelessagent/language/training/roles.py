@@ -35,6 +35,7 @@ from wirelessagent.language.judged import BORROWING, Look, first_look, second_lo
 from wirelessagent.language.mentions import Mention, mentions
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import measures, parse_quantities
+from wirelessagent.language.shares import worked_out
 from wirelessagent.language.text import USER_NOUN, Span, normalise, overlaps, replaced
 from wirelessagent.language.training.examples import FILLED, FILLINGS, OBJECTIVES, framed, lines_of, spoken
 from wirelessagent.language.training.fit import matrix_of, rounded, write
@@ -205,7 +206,8 @@ def examples(text: str, constraints: Mapping[str, Any]) -> Iterator[Example]:
 def shown_by(line: str) -> Iterator[Example]:
     """What a sentence shows whose figures and users are marked."""
     marked_one = Marked(line)
-    yield from _shown(_look(marked_one.text), marked_one)
+    if worked_out(marked_one.text) == marked_one.text:  # what is worked out stands there no longer
+        yield from _shown(_look(marked_one.text), marked_one)
 
 
 def named_in(line: str) -> Iterator[Example]:
