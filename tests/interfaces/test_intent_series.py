@@ -17,7 +17,7 @@ ODD, EVEN = ("1", "3", "5", "7"), ("2", "4", "6", "8")
     [
         ("Floors in Mbit/s: u1 0.5, u2 0.75, u3 1.25. Maximise the sum.",
          {"min_rate_bps": {"1": 5e5, "2": 7.5e5, "3": 1.25e6}}),
-        ("Max rates: [3: 1M, 4: 2M] bit/s. Max EE.", {"max_rate_bps": {"3": 1e6, "4": 2e6}}),
+        ("Min rates: [1: 300k, 2: 300k, 6: 900k] bit/s. Max EE.", {"min_rate_bps": {"1": 3e5, "2": 3e5, "6": 9e5}}),
         ("le 2 plafonné à 1 Mbit/s, le 3 à 2 Mbit/s, le 4 à 3 Mbit/s ; débit cumulé maximal",
          {"max_rate_bps": {"2": 1e6, "3": 2e6, "4": 3e6}}),
         ("下限(kbit/s):1号100,2号200,3号300;上限(kbit/s):5号1000,6号2000。按max-min来。",

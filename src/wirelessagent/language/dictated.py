@@ -31,8 +31,8 @@ def as_meant(text: str) -> str:
 def heard(text: str) -> str:
     """The sentence spelt as it was said.
 
-    >>> " ".join(heard("stay below thirty dee bee em, leave out user ate").split())
-    'stay below thirty dBm, leave out user 8'
+    >>> " ".join(heard("stay below thirty dee bee em and leave out user ate").split())
+    'stay below thirty dBm and leave out user 8'
     """
     plain, language = normalise(text), language_of(text)
     ends = {number.end for number in numbers(plain)}

@@ -239,7 +239,7 @@ class Judged:
             for number in (*first.loose, *first.ones)
         }
         likely_users = [n for n in first.loose if chances[n]["user"] > _LIKELY]
-        spans = [(each.start, each.end) for each in (*first.mentions, *likely_users)]
+        spans = [(each.start, each.end) for each in (*_named(first), *likely_users)]
         for each in _series(plain, [n for n in first.loose if n not in likely_users and n.form != "times"], spans):
             chances |= dict.fromkeys(each, _jointly([chances[n] for n in each]))
         if _OF_WEIGHTS.search(plain) is None:  # what doubles there is a rate that was said before
@@ -280,7 +280,7 @@ class Judged:
             *_runs(plain, [number for number in self.weights if number.form != "times"], _ITEMS),
         ]
         self.lists = [[item.start for item in each] for each in lists if len(each) > 1]
-        named_at = [(mention.start, mention.end) for mention in look.mentions]
+        named_at = [(mention.start, mention.end) for mention in _named(look)]
         self._series = _series(plain, [figure for figure in look.figures if figure.kind == "rate"], named_at)
         self._said: dict[Mention, Mapping[str, float]] = {}
         owned = (*(figure for figure in look.figures if figure.kind == "rate"), *self.weights)
@@ -291,7 +291,7 @@ class Judged:
         self._owned += [(self._owners_of(n.start), chances[n]["weight"]) for n in weighty]
 
     def _owners_of(self, start: int) -> Mapping[Mention | None, float]:
-        named = [each for each in self.mentions if each.role == "named" and each.end <= start]
+        named = [each for each in _named(self._look) if each.end <= start]
         if named and _WHO.fullmatch(self._look.plain, named[-1].end, start):
             return {named[-1]: 1.0}  # "except user 5, who needs 1 Mbit/s"
         everyone = [*self.mentions, None]
@@ -355,6 +355,10 @@ class Judged:
         """How likely the figure at ``start`` is for each of the candidates, or, as None, for everybody."""
         chances = self._owners[start]
         return _shares({mention: chances.get(mention, 0.0) for mention in (*candidates, None)})
+
+
+def _named(look: Look) -> list[Mention]:
+    return [mention for mention in look.mentions if mention.role == "named"]
 
 
 def _without_known(plain: str, strangers: Sequence[Span]) -> list[Span]:
