@@ -59,8 +59,8 @@ def _figure_for(possible: Possible, figure: Anchor, kind: str, value: float, gro
     if figure in possible.line.becoming or kind not in (*FIGURES_OF_USERS, *POWERS):
         return
     held, ways = possible.limits_of(kind, group), (("plus", 1), ("minus", -1))
-    if not held and kind == "max_power_w":  # the cell's, which can only become less
-        held, ways = [Limit(kind=kind, value=possible.context.max_power_w)], ways[1:]
+    if not held and kind == "max_power_w":  # what is radiated, which can only become less
+        held, ways = [Limit(kind=kind, value=possible.radiated_w)], ways[1:]
     for form, sign in ways if held else ():
         sums = [dataclasses.replace(each, value=each.value + sign * value) for each in held]
         yield group.change(sums, form, kind, figure)
@@ -99,7 +99,7 @@ def _of_shares(possible: Possible) -> Iterator[Change]:
                 for group in possible.groups_for(kind, figure):
                     yield group.change([Scale(kind=kind, factor=factor, whom=group.whom)], form, kind, figure)
             if of_the_cell and "max_power_w" not in others:
-                limit = Limit(kind="max_power_w", value=possible.context.max_power_w * factor)
+                limit = Limit(kind="max_power_w", value=possible.radiated_w * factor)
                 yield Change((limit,), form, "max_power_w", "cell", figure)
             for last, group in itertools.product(possible.last, groups):  # "half of that for 7"
                 if last.kind in FIGURES_OF_USERS and group.whom != last.whom:
