@@ -122,3 +122,16 @@ def test_a_report_is_noted_and_asked_about(said: str) -> None:
     assert (held["max_power_w"], turns[-1].stage) == (10.0, "asked")
     assert talk(HELD, read, "yes")[0]["max_power_w"] == 15.0
     assert talk(HELD, ("use 15 W as yesterday", read[1]))[0]["max_power_w"] == 15.0
+
+
+@pytest.mark.parametrize("said", ["halve the power", "把功率减半", "halbier die Leistung"])
+def test_half_of_the_power_is_half_of_what_is_radiated_where_no_limit_holds(said: str) -> None:
+    session = Session(SCENE, LOSS, seed=SEED, confirm=False)
+    session.say("energy efficiency, circuit power 8 W")
+    decided = session.state.run
+    assert decided is not None
+    radiated_w = decided.decision.total_power_w
+    assert radiated_w < 10
+    agreed(session, said)
+    assert session.request is not None
+    assert session.request.constraints["max_power_w"] == pytest.approx(radiated_w / 2, rel=1e-5)

@@ -54,7 +54,6 @@ class Context:
         user_names: of the channel; empty where it is not known yet.
         max_power_w: the cell's limit, which shares of the power refer to.
         radiated_w: what the last decision radiates, which "half of it" and "2 W less" refer to where no limit holds.
-        radiated_w: what the last decision radiates, which "half of it" and "2 W less" refer to where no limit holds.
         objective, constraints: of the current request; None and empty where there is none.
         awaits: what the agent asked for last.
         question: the one that is open, with what was understood before it; an empty one where none is.

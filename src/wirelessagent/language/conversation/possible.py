@@ -84,7 +84,6 @@ class Possible:
         unknown = (user for anchor in line.anchors if anchor.kind == "users" for user in anchor.users)
         self.users = tuple(dict.fromkeys((*(numbered(name) for name in context.user_names), *unknown)))
         self.radiated_w = _rounded(context.radiated_w or context.max_power_w)
-        self.radiated_w = _rounded(context.radiated_w or context.max_power_w)
         aim, held = context.objective, context.constraints
         self.figures = figures_of(held)
         self.request = None if aim is None else Request(objective=aim, constraints=held)
