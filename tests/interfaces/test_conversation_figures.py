@@ -63,7 +63,7 @@ def test_a_share_less_is_solved_and_the_loss_told(said: str) -> None:
 def test_a_budget_that_is_not_used_is_told() -> None:
     session = Session(SCENE, LOSS, seed=SEED, confirm=False)
     turns = [
-        session.say(line) for line in ("least power with 100 kbit/s each", "what if 10 % less power?", "少10%功率呢?")
+        session.say(line) for line in ("least power with 100 kbit/s each", "what if at most 18 W?", "如果最多18瓦呢?")
     ]
     assert "A budget of 18 W changes nothing: only" in turns[1].reply
     assert "18 W 的预算不会改变什么" in turns[2].reply

@@ -168,7 +168,7 @@ def test_the_words_that_say_what_somebody_is_there_for_are_evidence_and_wish_not
 
 
 def test_marks_show_what_no_constraint_can() -> None:
-    line = "drop [user 2]{stale}, that's wrong, [user 4]{leave_out}, half of [8 W]{part} or [3]{limit} in room 7"
+    line = "drop [user 2]{stale}, that's wrong, [user 4]{leave_out}, [8 W]{part} halved or [3]{limit} in room 7"
     shown_by = [
         (
             example.question,

@@ -147,7 +147,6 @@ DOUBTED = [
     ("10 W or 12 W", "conflict"),
     ("10 W if possible, else 12", "conflict"),
     ("10瓦或者12瓦", "conflict"),
-    ("1号至少1兆,不,2号至少1兆", "conflict"),
     ("3号不超过2号", "named_user"),
     ("1 Mbit/s for users 2 and up", "some_users"),
     ("1 Mbit/s for odd users", "some_users"),
