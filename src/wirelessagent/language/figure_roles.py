@@ -115,14 +115,18 @@ def _end_of_clause(words: Sequence[str]) -> int:
 
 def _add_words(found: set[str], side: str, words: Sequence[str]) -> None:
     """Single words, pairs and triples of one side, by how many clauses lie between."""
-    clauses = 0
+    clauses, before, previous = 0, "", ""
     for place, word in enumerate(words):
         where = f"{side}{min(clauses, 2)}"
-        firsts = range(max(0, place - (2 if place < 6 else 1)), place + 1)
-        found |= {f"{where}{' '.join(words[first : place + 1])}" for first in firsts}
+        found.add(f"{where}{word}")
+        if place:
+            found.add(f"{where}{previous} {word}")
+        if 1 < place < 6:
+            found.add(f"{where}{before} {previous} {word}")
         if place < 4:
             found.add(f"{where}{'~' if place else '='}{word}")
         clauses += word in _CLAUSE_ENDS
+        before, previous = previous, word
     if len(words) < _REACH:
         found.add(f"{side}{min(clauses, 1)}end{min(len(words) + 1, 3)}")
 
@@ -135,7 +139,8 @@ def _add_near(found: set[str], side: str, words: Sequence[str]) -> None:
         found.add(f"{side}next{known > end}{words[known]}")
     for place, word in enumerate(words[: end + 1]):
         if place != known:
-            found |= {f"near {word}", *(_letters(word) if len(word) > 4 else ())}
+            found.add(f"near {word}")
+            found.update(_letters(word) if len(word) > 4 else ())
 
 
 @functools.lru_cache(maxsize=4096)

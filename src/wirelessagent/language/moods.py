@@ -60,13 +60,11 @@ def classes_in(plain: str) -> tuple[tuple[str, Span], ...]:
     >>> classes_in("if only it were 5 W")[0]
     ('condition:sentence', (0, 7))
     """
-    found = [
-        (f"{name}:{reach}", span)
-        for language in languages_of(plain)
-        for name, classes in table_of(language).items()
-        for reach, words in classes.items()
-        for span in places(words, plain)
-    ]
+    small, found = plain.lower(), list[tuple[str, Span]]()
+    for language in languages_of(plain):
+        for name, words in _stems(language):
+            able = [word for stem, word in words if stem in small]
+            found += [(name, span) for span in places(able, plain)]
     return tuple(sorted(found, key=lambda each: (each[1][0], -each[1][1])))
 
 
@@ -92,6 +90,16 @@ def is_supposed(plain: str) -> bool:
     (True, False)
     """
     return any(name.startswith("condition:") and name != "condition:first" for name, _ in classes_in(plain))
+
+
+@functools.cache
+def _stems(language: str) -> Sequence[tuple[str, Sequence[tuple[str, str]]]]:
+    """A language's classes with how far they reach, and each word with the part of it that is always written so."""
+    return [
+        (f"{name}:{reach}", [(_stem(word), word) for word in words])
+        for name, classes in table_of(language).items()
+        for reach, words in classes.items()
+    ]
 
 
 @functools.cache

@@ -13,6 +13,7 @@ above fifty right beside a word for reliability.
 from __future__ import annotations
 
 import dataclasses
+import functools
 import itertools
 import math
 import re
@@ -110,7 +111,8 @@ class Measure:
         return self.unit.value(number) if self.unit is not None else float(number * self.factor)
 
 
-def measures(plain: str) -> list[Measure]:
+@functools.lru_cache(maxsize=16)
+def measures(plain: str) -> tuple[Measure, ...]:
     """Every number of a normalised text with its unit, from left to right, not overlapping.
 
     >>> [float(each.number.value) for each in measures("one miss in twenty, five nines, 四个九")]
@@ -120,7 +122,7 @@ def measures(plain: str) -> list[Measure]:
     for number in numbers(plain):
         if not overlaps((number.start, number.end), [(each.start, each.end) for each in found]):
             found.append(_read(plain, number))
-    return sorted(found, key=lambda measure: measure.start)
+    return tuple(sorted(found, key=lambda measure: measure.start))
 
 
 def _read(plain: str, number: Number) -> Measure:

@@ -270,7 +270,7 @@ class Vocabulary:
             self._by_first.setdefault(phrase[0], []).append((phrase, term))
         words = {word for phrase in known for word in phrase}
         self._right = words.union(word for each in tables for word in each["also"].get("right", ()))
-        self._able = [word for word in words if len(word) >= _SHORTEST_CORRECTED]
+        self._able = sorted(word for word in words if len(word) >= _SHORTEST_CORRECTED)
 
     def find(self, units: Sequence[Unit]) -> list[Found]:
         """The terms of a sentence from left to right, not overlapping, the longest first at each place."""
