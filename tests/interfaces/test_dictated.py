@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from wirelessagent.language.dictated import heard
+from wirelessagent.language.as_meant import heard
 from wirelessagent.language.sentence import Sentence, own_words
 
 NAMES = tuple(f"user {number}" for number in range(1, 9))

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from wirelessagent.language.mentions import without_corrected
+from wirelessagent.language.as_meant import without_corrected
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.sentence import Sentence, own_words
 

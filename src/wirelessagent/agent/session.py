@@ -179,8 +179,8 @@ class Session:
             told = cast("Mapping[str, tuple[str]]", turn.intent.details.get("called") or {})
             names |= {name: number for name, (number,) in told.items()}
         return Context(
-            user_names=self._site.user_names, max_power_w=self._site.scene.cell.max_power_w, radiated_w=state.radiated_w,
-            language=self._language, objective=None if request is None else request.objective,
+            user_names=self._site.user_names, max_power_w=self._site.scene.cell.max_power_w, language=self._language,
+            radiated_w=state.radiated_w, objective=None if request is None else request.objective,
             constraints={} if request is None else request.constraints,
             awaits=state.awaits, question=state.question or Question(),
             supposed_objective=None if supposed is None else supposed.objective,

@@ -17,11 +17,10 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.number_words import cardinals, listed, tens_and_ones, whole
-from wirelessagent.language.numerals import NUMBERED, TIGHT_LIST, chinese_value, factors, numbers
-from wirelessagent.language.text import AND, WORD, Phrases, clause_start, is_chinese, normalise, overlaps
+from wirelessagent.language.numerals import TIGHT_LIST, chinese_value
+from wirelessagent.language.text import AND, Phrases, clause_start, is_chinese, overlaps
 from wirelessagent.language.units import unit_at
-from wirelessagent.language.vocabulary import language_of
-from wirelessagent.language.word_tables import any_word, deferred, either, table
+from wirelessagent.language.word_tables import any_word, deferred, either
 
 Role: TypeAlias = Literal["named", "everybody", "others", "pronoun"]
 
@@ -32,6 +31,7 @@ NOUN, _EACH = any_word("figures", "users", "nouns", "things"), any_word("figures
 _ORDINAL = f"(?:{'|'.join(sorted(ORDINALS, key=len, reverse=True))})"
 WORD_NUMBER = f"(?:{tens_and_ones()}|{'|'.join(sorted(_NUMBER_WORDS, key=len, reverse=True))})"
 JOINT_WORDS, ARTICLES = (either("figures", "users", name) for name in ("joins", "articles"))
+GIVEN_TO = rf"(?:{either('figures', 'users', 'given_to')}|{ARTICLES})"
 _AND = rf"(?:\s*(?:,|&|\+|/)\s*(?:(?:{AND}|or)\s+)?|\s+(?:{JOINT_WORDS})\s+(?:(?:{ARTICLES})\s+)?)"
 _TO = rf"(?:\s*(?:-|–|~|\.{{2,3}}|…)\s*|\s+{any_word('figures', 'users', 'to', 'as_far_as')}\s+)"
 # "6 for user 2, 3 for user 3": no list of users, as "1 and 5 to have …", "1 to 4 for now" are
@@ -66,7 +66,7 @@ _NAMED = Phrases(
 )
 _ZH_NUMBER = r"(?:[0-9]{1,4}|[一二三四五六七八九十]{1,3})"
 ZH_NOUN = r"(?:用户|終端|终端|用戶|UE|ue|客户|客戶|订户|设备|手机|节点)"
-_ANY_NOUN = rf"(?:{NOUN}|{ZH_NOUN})"
+ANY_NOUN = rf"(?:{NOUN}|{ZH_NOUN})"
 
 
 _ZH_JOINT = r"\s*号?\s*(?:、|,|\uff0c|和|与|跟|及|以及|到|至|-|~)\s*|\s+(?=[0-9]{1,2}(?:\s+[0-9]{1,2})*\s*号)"
@@ -121,8 +121,8 @@ LISTED = deferred(  # between the figures of a list
     rf"(?i)\s*(?:[,;、\uff0c]|{JOINT.pattern.removeprefix('(?i)')}|,?\s*(?:and then|beziehungsweise|bzw\.?|"
     r"respectively))\s*"
 )
-_EACH_OF = deferred(rf"(?i)(?:{either('figures', 'users', 'each_of')})\s*{_ANY_NOUN}?\s*(?:from|de|von|entre)?\s*$")
-_LONGEST_RANGE, _NEAR, _MOST_USERS, _FAR_OFF = 100, 25, 100, 5
+_EACH_OF = deferred(rf"(?i)(?:{either('figures', 'users', 'each_of')})\s*{ANY_NOUN}?\s*(?:from|de|von|entre)?\s*$")
+_LONGEST_RANGE, _NEAR, MOST_USERS, _FAR_OFF = 100, 25, 100, 5
 """How many users a range may have, how near what leaves out stands, and from where on a number behind users that is so
 many times theirs is none."""
 _UP_TO = deferred(rf"(?i)\s*号?(?:{_TO}(?:l')?|\s*[到至]\s*)")
@@ -193,10 +193,11 @@ def _spoken_of(plain: str) -> tuple[Mention, ...]:
         for role, pattern in roles.items()
         for match in pattern.finditer(plain)
     )
-    return (*_named(plain), *collective)
+    return (*named(plain), *collective)
 
 
-def _named(plain: str) -> Iterator[Mention]:
+def named(plain: str) -> Iterator[Mention]:
+    """Everybody named by a number, as the patterns find them; they may overlap."""
     for match in (*_NAMED.finditer(plain), *_ZH.finditer(plain)):
         group = match.lastgroup or ""
         if group == "rate_of" and plain[match.start()] != "R":
@@ -219,7 +220,7 @@ def _without_quantity(plain: str, match: re.Match[str], group: str) -> int:
     for (one, _, end), (other, start, _) in itertools.pairwise(parts):  # "4, 6 and 7 to 1, 2 and 5 Mbit/s"
         if other < one and _UP_TO.fullmatch(plain, end, start):
             return end
-    if len(parts) > 1 and parts[-1][0] >= max(_MOST_USERS, _FAR_OFF * parts[-2][0]):  # "users 1 and 2, 500"
+    if len(parts) > 1 and parts[-1][0] >= max(MOST_USERS, _FAR_OFF * parts[-2][0]):  # "users 1 and 2, 500"
         return last
     if parts and unit_at(plain, parts[-1][2]) is not None:
         of_each = len(parts) == 2 and is_of_each(plain, offset)  # "each user 1 to 5 Mbit/s"
@@ -298,107 +299,3 @@ def _parted(plain: str, mention: Mention) -> tuple[Mention, ...]:
         Mention(role="named", users=first, start=mention.start, end=comma.start()),
         Mention(role="named", users=last, start=comma.end(), end=mention.end),
     )
-
-
-_DIGIT = "一二两三四五六七八九十"
-_NUMBER = rf"(?:(?<![A-Za-z0-9.,])[0-9]+(?:[.,][0-9]+)?|\b{WORD_NUMBER}\b|(?<![{_DIGIT}])[{_DIGIT}]{{1,3}}+)"
-GIVEN_TO = rf"(?:{either('figures', 'users', 'given_to')}|{ARTICLES})"
-_BREAK = r"\s*+(?:[,;\uff0c；、啊哎哦唉]|[-–—…]++|\.{2,3}+)\s*+"
-_CORRECTS, _MEANS = (either("figures", "one", name) for name in ("corrects", "means"))
-_JOINT = rf"(?:{JOINT_WORDS}|\b{any_word('figures', 'users', 'to')}\b|[~/&+、到至和与]|(?<=[0-9])[-–](?=[0-9]))"
-_FILLED = either("figures", "one", "fillers")
-_TOKEN = rf"(?>{WORD})"
-_PAUSE = rf"(?:(?:{_FILLED})\s*+|{_BREAK})"
-_RETURN = deferred(  # what stands between a figure and the one that takes its place: words of either, what takes back
-    rf"(?i)(?P<tail>(?:\s*+{_TOKEN}){{0,4}}?)\s*+(?P<back>(?P<pause>{_PAUSE}*+)(?P<said>{_CORRECTS}|(?P<means>{_MEANS}))"
-    rf"(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}|是))*+)\s*+)(?P<head>(?:{_TOKEN}\s*+){{0,5}}?)"
-)
-_BACK = deferred(
-    rf"(?i)(?:\s*+{_TOKEN}){{0,3}}?\s*+{_PAUSE}*+(?P<said>{_CORRECTS})(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}|是))*+)"
-)
-_BOUND_BEHIND = "|".join(either("figures", "bounds", name) for name in ("at_least_behind", "at_most_behind"))
-_ENDED = deferred(r"\s*(?:$|[,.;:!?)\uff0c\uff1b。、](?![0-9]))")
-_SURELY_A_RATE, _DENIES = 20, ("no", "non", "不", "不是")
-"""From where on a whole number without a unit is nobody's, and words that deny what follows as often as they take back
-what stands before, when they stand alone."""
-_GOES_ELSEWHERE = deferred(rf"(?i)\s*(?:给|对|(?!(?:{AND})\b|{_BOUND_BEHIND})[A-Za-zÀ-ÿ])")
-_ANOTHER_USER = deferred(rf"(?i){_ANY_NOUN}")
-_OF_USERS = deferred(rf"{NUMBERED.pattern}|{GIVEN_TO}\s*$")
-_LIST_AHEAD = deferred(rf"(?i){_NUMBER}\s*号?\s*(?:,\s*)?(?:{_JOINT}|,)\s*(?:{GIVEN_TO}\s*)?(?:{_ANY_NOUN}\s*)?$")
-_LIST_BEHIND = deferred(rf"(?i)\s*号?\s*{_JOINT}\s*(?:{GIVEN_TO}\s*)?(?:{_ANY_NOUN}\s*)?{_NUMBER}")
-
-
-def without_corrected(text: str) -> str:
-    """The sentence without what it takes back, all else at its place.
-
-    >>> " ".join(without_corrected("user 6 at least 1, no, 2 Mbit/s").split())
-    'user 6 at least 2 Mbit/s'
-    >>> " ".join(without_corrected("for user 3 - sorry, I mean user 5 - 1 Mbit/s").split())
-    'for user 5 - 1 Mbit/s'
-    """
-    plain = normalise(text)
-    for start, end, instead in (*_said_again(plain), *_taken_back(plain)):
-        text = text[:start] + instead.rjust(end - start) + text[end:]
-    left = _fillers(language_of(text)).sub(lambda match: " " * len(match[0]), text)
-    return text if left.isspace() else left
-
-
-@functools.cache
-def _fillers(language: str) -> re.Pattern[str]:
-    """The sounds of a language that fill a pause and say nothing, with a comma behind."""
-    words = "|".join(table("figures", language)["one"]["fillers"])
-    return deferred(rf"(?i)(?<![A-Za-zÀ-ÿ'])(?:{words})(?![A-Za-zÀ-ÿ'])(?:\s*[,\uff0c])?")
-
-
-def _said_again(plain: str) -> Iterator[tuple[int, int, str]]:
-    """What is said of one user and then of another instead: "2 Mbit/s for user 4, no, wait, 2 Mbit/s for user 7"."""
-    measured = [(number, unit) for number in numbers(plain) if (unit := unit_at(plain, number.end))]
-    for (one, its), (other, unit) in itertools.pairwise(measured):
-        again = _BACK.match(plain, its.end) if one.value == other.value and its.kind == unit.kind else None
-        said = again is not None and (again["more"] or again["said"].casefold() not in _DENIES)
-        if again is not None and said and again.end() <= other.start:
-            named = list(_named(plain))
-            ahead = [each for each in named if clause_start(plain, one.start) <= each.start < one.start]
-            if ahead and any(again.end() <= each.start < other.start for each in named):
-                yield ahead[-1].start, again.end(), ""
-
-
-def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
-    """The spans of numbers in whose place the next one stands, with the words that say so, and what is to stand there.
-
-    Words between stand ahead of the first as well, or behind the second: "at least 4 Mbit/s each, no, 5 Mbit/s each".
-    A figure without a unit in the place of one that has it gets the unit, where it is nobody's number. What of a list
-    is taken back, nobody knows: "users 1 and 2, no, 3".
-    """
-    times = list(factors(plain))
-    spans = [(each.start, each.end) for each in times]
-    counted = (each for each in numbers(plain) if not overlaps((each.start, each.end), spans))
-    figures = sorted((*times, *counted), key=lambda each: each.start)
-    found = [(figure, None if figure in times else unit_at(plain, figure.end)) for figure in figures]
-    for (wrong, its), (right, other) in itertools.pairwise(found):
-        said = _RETURN.fullmatch(plain, its.end if its else wrong.end, right.start)
-        if said is None or wrong.value == right.value or _LIST_AHEAD.search(plain, 0, wrong.start):
-            continue
-        ahead, behind = plain[: wrong.start].casefold().rstrip(), plain[other.end if other else right.end :].casefold()
-        head, tail = said["head"].casefold().strip(), said["tail"].casefold().strip()
-        user = _OF_USERS.search(plain, 0, wrong.start) is not None or plain[wrong.end : wrong.end + 1] in ("号", "號")
-        repeated = ahead.endswith(head) or (user and _ANOTHER_USER.fullmatch(head) is not None)
-        doubled = any(map(str.isalpha, said["pause"] + said["more"]))
-        if not (doubled or said["more"]) and said["said"].casefold() in _DENIES:
-            continue  # "no service to 6, no service to 7", "con 10 W, no 20 W"
-        if its is not None and other is None:
-            value = right.value or 0
-            if not head and (value != int(value) or value >= _SURELY_A_RATE) and _ENDED.match(plain, right.end):
-                unit = plain[wrong.end : said.start("back")].rstrip()
-                yield wrong.start, right.end, plain[right.start : right.end] + unit
-        elif repeated and behind.lstrip().startswith(tail):
-            paused = said["pause"] or said["means"] or doubled
-            measured = other is not None and not user and (its is None or its.kind == other.kind)
-            measured |= wrong.form == right.form == "times"
-            if measured and its is not None and not tail:
-                # "1 Mbit/s each, rather 2 Mbit/s for user 3", "10 W, hold on, 8 W is the circuit power"
-                measured = _GOES_ELSEWHERE.match(behind) is None
-            able = not user or head or (right.value or 0) < _MOST_USERS
-            alike = its is other and able and paused and (head or tail or not said["means"])
-            if measured or (alike and _LIST_BEHIND.match(plain, right.end) is None):
-                yield wrong.start, right.start, ""

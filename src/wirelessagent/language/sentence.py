@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, cast
 
 from wirelessagent import plugins
 from wirelessagent.language import goals
+from wirelessagent.language.as_meant import as_meant
 from wirelessagent.language.constraints import read_constraints
-from wirelessagent.language.dictated import as_meant
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.moods import classes_in

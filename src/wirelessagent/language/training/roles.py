@@ -27,8 +27,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy import optimize
 
+from wirelessagent.language.as_meant import as_meant
 from wirelessagent.language.conversation.possible import RATES
-from wirelessagent.language.dictated import as_meant
 from wirelessagent.language.figure_roles import BUCKETS, LABELS, ROLES_FILE, View, hashed
 from wirelessagent.language.intent import EVERYBODY
 from wirelessagent.language.judged import BORROWING, Look, first_look, second_look

@@ -1,0 +1,162 @@
+"""A sentence as it is meant: spelt as it was said, its shares worked out, without what it takes back.
+
+Dictation misspells: "thirty dee bee em" is dBm, "twenty what's" are watts, "user to gets" is user 2. Which words are
+heard for which is data (``figures/<language>.toml``, ``[heard]``): anywhere, right behind a number, and right behind a
+user who is named by no more: "each user to", "limit user to 2 Mbit/s" are none. What is taken back is blanked, as are
+sounds that fill a pause.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import re
+from collections.abc import Iterator, Mapping
+
+from wirelessagent.language.mentions import ANY_NOUN, GIVEN_TO, JOINT_WORDS, MOST_USERS, WORD_NUMBER, named
+from wirelessagent.language.numerals import NUMBERED, factors, numbers
+from wirelessagent.language.shares import worked_out
+from wirelessagent.language.text import AND, WORD, clause_start, normalise, overlaps, replaced
+from wirelessagent.language.units import unit_at
+from wirelessagent.language.vocabulary import language_of
+from wirelessagent.language.word_tables import any_word, deferred, either, table
+
+_NOT_A_FIGURE = r"(?!\s*[0-9])"
+
+
+def as_meant(text: str) -> str:
+    """The sentence as it is meant: spelt as it was said, with what its shares come to, without what it takes back.
+
+    Everything else stays at its place.
+    """
+    return without_corrected(worked_out(heard(text)))
+
+
+def heard(text: str) -> str:
+    """The sentence spelt as it was said.
+
+    >>> " ".join(heard("stay below thirty dee bee em and leave out user ate").split())
+    'stay below thirty dBm and leave out user 8'
+    """
+    plain, language = normalise(text), language_of(text)
+    ends = {number.end for number in numbers(plain)}
+    spans = list[tuple[int, int, str]]()
+    for name, words in table("figures", language).get("heard", {}).items():
+        for match in _misheard(name, language).finditer(plain):
+            start, end = match.span("said")
+            if name != "behind_numbers" or len(plain[:start].rstrip()) in ends:
+                spans.append((start, end, words[match["said"].lower()].ljust(end - start)))
+    return replaced(text, sorted(spans))
+
+
+@functools.cache
+def _misheard(name: str, language: str) -> re.Pattern[str]:
+    words: Mapping[str, str] = table("figures", language)["heard"][name]
+    said = rf"(?P<said>{'|'.join(sorted(map(re.escape, words), key=len, reverse=True))})(?![\w'])"
+    if name != "behind_users":
+        return deferred(rf"(?i)(?<![\w'])(?:{said})")
+    ahead = "|".join(table("figures", language)["users"]["heard_ahead"])
+    return deferred(rf"(?i)(?:^|[,;.]\s*|\b(?:{ahead})\s+)users?\s+{said}{_NOT_A_FIGURE}")
+
+
+_DIGIT = "一二两三四五六七八九十"
+_NUMBER = rf"(?:(?<![A-Za-z0-9.,])[0-9]+(?:[.,][0-9]+)?|\b{WORD_NUMBER}\b|(?<![{_DIGIT}])[{_DIGIT}]{{1,3}}+)"
+_BREAK = r"\s*+(?:[,;\uff0c；、啊哎哦唉]|[-–—…]++|\.{2,3}+)\s*+"
+_CORRECTS, _MEANS = (either("figures", "one", name) for name in ("corrects", "means"))
+_JOINT = rf"(?:{JOINT_WORDS}|\b{any_word('figures', 'users', 'to')}\b|[~/&+、到至和与]|(?<=[0-9])[-–](?=[0-9]))"
+_FILLED = either("figures", "one", "fillers")
+_TOKEN = rf"(?>{WORD})"
+_PAUSE = rf"(?:(?:{_FILLED})\s*+|{_BREAK})"
+_RETURN = deferred(  # what stands between a figure and the one that takes its place: words of either, what takes back
+    rf"(?i)(?P<tail>(?:\s*+{_TOKEN}){{0,4}}?)\s*+(?P<back>(?P<pause>{_PAUSE}*+)(?P<said>{_CORRECTS}|(?P<means>{_MEANS}))"
+    rf"(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}|是))*+)\s*+)(?P<head>(?:{_TOKEN}\s*+){{0,5}}?)"
+)
+_BACK = deferred(
+    rf"(?i)(?:\s*+{_TOKEN}){{0,3}}?\s*+{_PAUSE}*+(?P<said>{_CORRECTS})(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}|是))*+)"
+)
+_BOUND_BEHIND = "|".join(either("figures", "bounds", name) for name in ("at_least_behind", "at_most_behind"))
+_ENDED = deferred(r"\s*(?:$|[,.;:!?)\uff0c\uff1b。、](?![0-9]))")
+_SURELY_A_RATE, _DENIES = 20, ("no", "non", "不", "不是")
+"""From where on a whole number without a unit is nobody's, and words that deny what follows as often as they take back
+what stands before, when they stand alone."""
+_GOES_ELSEWHERE = deferred(rf"(?i)\s*(?:给|对|(?!(?:{AND})\b|{_BOUND_BEHIND})[A-Za-zÀ-ÿ])")
+_ANOTHER_USER = deferred(rf"(?i){ANY_NOUN}")
+_OF_USERS = deferred(rf"{NUMBERED.pattern}|{GIVEN_TO}\s*$")
+_LIST_AHEAD = deferred(rf"(?i){_NUMBER}\s*号?\s*(?:,\s*)?(?:{_JOINT}|,)\s*(?:{GIVEN_TO}\s*)?(?:{ANY_NOUN}\s*)?$")
+_LIST_BEHIND = deferred(rf"(?i)\s*号?\s*{_JOINT}\s*(?:{GIVEN_TO}\s*)?(?:{ANY_NOUN}\s*)?{_NUMBER}")
+
+
+def without_corrected(text: str) -> str:
+    """The sentence without what it takes back, all else at its place.
+
+    >>> " ".join(without_corrected("user 6 at least 1, no, 2 Mbit/s").split())
+    'user 6 at least 2 Mbit/s'
+    >>> " ".join(without_corrected("for user 3 - sorry, I mean user 5 - 1 Mbit/s").split())
+    'for user 5 - 1 Mbit/s'
+    """
+    plain = normalise(text)
+    for start, end, instead in (*_said_again(plain), *_taken_back(plain)):
+        text = text[:start] + instead.rjust(end - start) + text[end:]
+    left = _fillers(language_of(text)).sub(lambda match: " " * len(match[0]), text)
+    return text if left.isspace() else left
+
+
+@functools.cache
+def _fillers(language: str) -> re.Pattern[str]:
+    """The sounds of a language that fill a pause and say nothing, with a comma behind."""
+    words = "|".join(table("figures", language)["one"]["fillers"])
+    return deferred(rf"(?i)(?<![A-Za-zÀ-ÿ'])(?:{words})(?![A-Za-zÀ-ÿ'])(?:\s*[,\uff0c])?")
+
+
+def _said_again(plain: str) -> Iterator[tuple[int, int, str]]:
+    """What is said of one user and then of another instead: "2 Mbit/s for user 4, no, wait, 2 Mbit/s for user 7"."""
+    measured = [(number, unit) for number in numbers(plain) if (unit := unit_at(plain, number.end))]
+    for (one, its), (other, unit) in itertools.pairwise(measured):
+        again = _BACK.match(plain, its.end) if one.value == other.value and its.kind == unit.kind else None
+        said = again is not None and (again["more"] or again["said"].casefold() not in _DENIES)
+        if again is not None and said and again.end() <= other.start:
+            users = list(named(plain))
+            ahead = [each for each in users if clause_start(plain, one.start) <= each.start < one.start]
+            if ahead and any(again.end() <= each.start < other.start for each in users):
+                yield ahead[-1].start, again.end(), ""
+
+
+def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
+    """The spans of numbers in whose place the next one stands, with the words that say so, and what is to stand there.
+
+    Words between stand ahead of the first as well, or behind the second: "at least 4 Mbit/s each, no, 5 Mbit/s each".
+    A figure without a unit in the place of one that has it gets the unit, where it is nobody's number. What of a list
+    is taken back, nobody knows: "users 1 and 2, no, 3".
+    """
+    times = list(factors(plain))
+    spans = [(each.start, each.end) for each in times]
+    counted = (each for each in numbers(plain) if not overlaps((each.start, each.end), spans))
+    figures = sorted((*times, *counted), key=lambda each: each.start)
+    found = [(figure, None if figure in times else unit_at(plain, figure.end)) for figure in figures]
+    for (wrong, its), (right, other) in itertools.pairwise(found):
+        said = _RETURN.fullmatch(plain, its.end if its else wrong.end, right.start)
+        if said is None or wrong.value == right.value or _LIST_AHEAD.search(plain, 0, wrong.start):
+            continue
+        ahead, behind = plain[: wrong.start].casefold().rstrip(), plain[other.end if other else right.end :].casefold()
+        head, tail = said["head"].casefold().strip(), said["tail"].casefold().strip()
+        user = _OF_USERS.search(plain, 0, wrong.start) is not None or plain[wrong.end : wrong.end + 1] in ("号", "號")
+        repeated = ahead.endswith(head) or (user and _ANOTHER_USER.fullmatch(head) is not None)
+        doubled = any(map(str.isalpha, said["pause"] + said["more"]))
+        if not (doubled or said["more"]) and said["said"].casefold() in _DENIES:
+            continue  # "no service to 6, no service to 7", "con 10 W, no 20 W"
+        if its is not None and other is None:
+            value = right.value or 0
+            if not head and (value != int(value) or value >= _SURELY_A_RATE) and _ENDED.match(plain, right.end):
+                unit = plain[wrong.end : said.start("back")].rstrip()
+                yield wrong.start, right.end, plain[right.start : right.end] + unit
+        elif repeated and behind.lstrip().startswith(tail):
+            paused = said["pause"] or said["means"] or doubled
+            measured = other is not None and not user and (its is None or its.kind == other.kind)
+            measured |= wrong.form == right.form == "times"
+            if measured and its is not None and not tail:
+                # "1 Mbit/s each, rather 2 Mbit/s for user 3", "10 W, hold on, 8 W is the circuit power"
+                measured = _GOES_ELSEWHERE.match(behind) is None
+            able = not user or head or (right.value or 0) < MOST_USERS
+            alike = its is other and able and paused and (head or tail or not said["means"])
+            if measured or (alike and _LIST_BEHIND.match(plain, right.end) is None):
+                yield wrong.start, right.start, ""
