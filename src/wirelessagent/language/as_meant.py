@@ -44,8 +44,9 @@ def heard(text: str) -> str:
     for name, words in table("figures", language).get("heard", {}).items():
         for match in _misheard(name, language).finditer(plain):
             start, end = match.span("said")
-            if name != "behind_numbers" or len(plain[:start].rstrip()) in ends:
-                spans.append((start, end, words[match["said"].lower()].ljust(end - start)))
+            instead = words.get(match["said"].lower())  # none for letters such as "İ", which are an "i" to patterns
+            if instead and (name != "behind_numbers" or len(plain[:start].rstrip()) in ends):
+                spans.append((start, end, instead.ljust(end - start)))
     return replaced(text, sorted(spans))
 
 

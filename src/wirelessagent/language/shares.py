@@ -149,7 +149,7 @@ def _figures(plain: str) -> Iterator[_Figure]:
     """Powers and rates, "700k" among them."""
     for each in measures(plain):
         kind = each.unit.kind if each.unit is not None else "rate" if each.factor > 1 else "ratio"
-        if kind != "ratio" and each.number.value is not None:
+        if kind != "ratio" and 0 < each.value < math.inf:
             yield _Figure(kind, each.value, each.start, each.end)
 
 
