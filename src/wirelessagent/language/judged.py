@@ -116,7 +116,8 @@ def figures_of(
     found: dict[Number, Quantity] = {}
     for number, role in roles.items():
         scaled = SCALED.match(plain, number.end) if BORROWING[role] == "rate" else None
-        value = _value(number, role, scaled, units, [*stated, *found.values()])
+        said = [figure for other, figure in found.items() if roles[other] != "multiple"]  # "3 the double, 6 the half"
+        value = _value(number, role, scaled, units, sorted([*stated, *said], key=lambda figure: figure.start))
         if value is None:
             continue
         own = [q for q in quantities if q.start <= number.start < q.end]

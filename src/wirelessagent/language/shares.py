@@ -33,9 +33,15 @@ _BEHIND = deferred(r"\s*(?:之中|当中|里面|里|中)?的\s*")
 _ARTICLE = deferred(rf"(?i)\b{any_word('figures', 'users', 'articles')}\s+$")
 _ALL_OF = deferred(rf"(?i)(?:^|[,;:.(\uff0c；：。])\s*(?P<of>{_OF}{_WHOSE})$")
 _ON = r"(?:[^\W\d]+\s+){0,6}"
-_UP_TO_SHARE, _OF_WHICH = deferred(rf"(?i)\s*{_ON}"), deferred(rf"(?i)\s*(?:\w+\s*)?[,\uff0c]?\s*{_WHICH}\s+{_ON}")
-_OF_IT_BEHIND = deferred(rf"(?i)\s*{_OF_IT}(?!\w)(?!\s+{any_word('figures', 'shares_of', 'likened')}(?!\w))")
+_UP_TO_SHARE, _OF_WHICH = deferred(rf"(?i)\s*{_ON}"), deferred(rf"(?i)\s*(?:\w+\s*)?[,\uff0c]?\s*(?P<which>{_WHICH}\s+{_ON})")
+_OF_IT_BEHIND = deferred(
+    rf"(?i)\s*(?:{_OF_IT}|{any_word('figures', 'shares_of', 'of_it_as')}"
+    rf"(?!\s+{any_word('figures', 'shares_of', 'likened')}(?!\w)))(?!\w)"
+)
 _OF_IT_AHEAD = deferred(r"(?:其中|其|它|这个数?|该值)的?\s*$")
+_OF_POWER = deferred(rf"(?i)\s*{any_word('figures', 'shares_of', 'of_power')}(?!\w)")
+_OF_POWER_AHEAD = deferred(r"(?:总功率|总的功率|功率上限|总上限)的\s*$")
+_AGAIN = deferred(rf"(?i)[^,;.]*\b(?:{any_word('figures', 'shares_of', 'again')})\b")
 _CHANGED = deferred(rf"(?i)\s*(?:(?P<more>{_MORE})|(?P<less>{_LESS}))(?:\s+{_THAN})?")
 _CHANGED_AHEAD = deferred(r"(?:(?P<more>多|高)|(?P<less>少|低))\s*$")
 _COUNTS = deferred(rf"(?i)\b{any_word('figures', 'users', 'weighs')}\b|权重|权|算")
@@ -75,11 +81,16 @@ def _come_to(plain: str) -> Iterator[tuple[int, int, str]]:
         less, most = (other, one) if off else (one, other)
         if (below or off) and one.kind == other.kind and less.value < most.value:  # "5 W below our 25 W"
             yield one.start, other.end, _written(most, 1 - less.value / most.value)
-    shares = sorted(_shares(plain), key=lambda each: each.start)
-    for last, share in zip((None, *shares), shares, strict=False):
+    for share in sorted(_shares(plain), key=lambda each: each.start):
         ahead = [figure for figure in figures if figure.end <= share.start]
         behind = [figure for figure in figures if figure.start >= share.end]
-        base = ahead[-1] if ahead and (last is None or last.start < ahead[-1].end) else None
+        powers = [figure for figure in ahead if figure.kind == "power"]
+        of_power, power = _OF_POWER.match(plain, share.end), _OF_POWER_AHEAD.search(plain, 0, share.start)
+        if powers and (of_power or power):  # "each subcarrier at most 2 % of the total power"
+            start, end = power.start() if power else share.start, of_power.end() if of_power else share.end
+            yield start, end, _written(powers[-1], share.value)
+            continue
+        base = ahead[-1] if ahead and _AGAIN.match(plain, share.end) is None else None
         if _counts(plain, share.start):  # "counts 50 % more"
             yield from _weighed(plain, share)
         elif behind and _is_part(share) and _JOINED.fullmatch(plain, share.end, behind[0].start):  # "80 % of 25 W"
@@ -101,8 +112,12 @@ def _of_one_ahead(plain: str, share: _Figure, base: _Figure) -> Iterator[tuple[i
     worth = _written(base, share.value)
     of_all = _ALL_OF.search(plain, 0, base.start)
     it, its = _OF_IT_BEHIND.match(plain, share.end), _OF_IT_AHEAD.search(plain, base.end, share.start)
-    if _OF_WHICH.fullmatch(plain, base.end, share.start):
-        yield share.start, share.end, worth
+    of_which = _OF_WHICH.fullmatch(plain, base.end, share.start)
+    if of_which is not None:
+        start = share.start
+        if share.end - start < len(worth):  # in the place of the bound, too: whatever power is said is a ceiling
+            start = max(plain.rfind(" ", 0, start - 1) + 1, of_which.start("which"))
+        yield start, share.end, worth
     elif its is not None:
         yield its.start(), share.end, worth
     elif not _is_part(share):
