@@ -30,7 +30,8 @@ def test_what_dictation_misspells_is_read_as_it_was_said(text: str, values: dict
 
 @pytest.mark.parametrize(
     "text",
-    ["limit user to 2 Mbit/s", "each user to get 1 Mbit/s", "the slowest user for now", "what's the rate of user 3",
+    ["limit user to 2 Mbit/s", "limit users to at most 2 Mbit/s", "users to drop: 3", "drop user for now",
+     "user won the lottery", "each user to get 1 Mbit/s", "the slowest user for now", "what's the rate of user 3",
      "sans limite pour 3", "some rate for user 3"],
 )  # fmt: skip
 def test_what_is_spelt_as_it_is_meant_stays(text: str) -> None:

@@ -182,6 +182,8 @@ def test_a_unit_in_passing_is_no_figures_and_what_is_alike_in_passing_gives_noth
         ("user two counts twice er no three times", "user two counts three times"),
         ("总功率15W，哦不对，是18W", "总功率 18W"),
         ("Usuario 2: 1 Mbps, perdón, 1,8 Mbps como mínimo", "Usuario 2: 1,8 Mbps como mínimo"),
+        ("user 4 at least 1 Mbit/s, sorry, and user 7 at least 1 Mbit/s",
+         "user 4 at least 1 Mbit/s, sorry, and user 7 at least 1 Mbit/s"),
         ("user 3 at least 1 Mbit/s, no service for 4, user 5 at least 1 Mbit/s",
          "user 3 at least 1 Mbit/s, no service for 4, user 5 at least 1 Mbit/s"),
     ],

@@ -54,7 +54,8 @@ def test_a_share_of_a_figure_is_what_it_comes_to(text: str, values: dict[str, An
      "user 3 counts double, 12 W", "twice as much as now", "fiabilidad del 99 %, circuito de 3 W",
      "cada uno con una media de 300 kbit/s", "1 Mbit/s for 2, twice as much as the best for 3",
      "half of the users at 1 Mbit/s", "a power of 20 W and 5 % outage",
-     "users at 2 Mbit/s, below 5 W", "15 W less 200 kbit/s"],
+     "users at 2 Mbit/s, below 5 W", "20 W less 5 W for the electronics", "user 3 counts on 50 % more",
+     "what counts is 10 % less power", "15 W less 200 kbit/s"],
 )  # fmt: skip
 def test_what_is_no_share_of_a_figure_stays(text: str) -> None:
     assert worked_out(text) == text

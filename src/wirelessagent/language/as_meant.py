@@ -21,8 +21,6 @@ from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import language_of
 from wirelessagent.language.word_tables import any_word, deferred, either, table
 
-_NOT_A_FIGURE = r"(?!\s*[0-9])"
-
 
 def as_meant(text: str) -> str:
     """The sentence as it is meant: spelt as it was said, with what its shares come to, without what it takes back.
@@ -57,7 +55,9 @@ def _misheard(name: str, language: str) -> re.Pattern[str]:
     if name != "behind_users":
         return deferred(rf"(?i)(?<![\w'])(?:{said})")
     ahead = "|".join(table("figures", language)["users"]["heard_ahead"])
-    return deferred(rf"(?i)(?:^|[,;.]\s*|\b(?:{ahead})\s+)users?\s+{said}{_NOT_A_FIGURE}")
+    behind, bound = ("|".join(table("figures", language)["users"][f"heard_{name}"]) for name in ("behind", "bound"))
+    follows = rf"(?=\s+(?:{behind})\b|\s*(?:$|[,;.])|(?<!to)(?<!too)\s+(?:{bound})\b)"  # "limit user to at most"
+    return deferred(rf"(?i)(?:^|[,;.]\s*|\b(?:{ahead})\s+)user\s+{said}{follows}")
 
 
 _DIGIT = "一二两三四五六七八九十"
@@ -114,11 +114,15 @@ def _said_again(plain: str) -> Iterator[tuple[int, int, str]]:
     measured = [(number, unit) for number in numbers(plain) if (unit := unit_at(plain, number.end))]
     for (one, its), (other, unit) in itertools.pairwise(measured):
         again = _BACK.match(plain, its.end) if one.value == other.value and its.kind == unit.kind else None
-        said = again is not None and (again["more"] or again["said"].casefold() not in _DENIES)
-        if again is not None and said and again.end() <= other.start:
-            users = list(named(plain))
-            ahead = [each for each in users if clause_start(plain, one.start) <= each.start < one.start]
-            if ahead and any(again.end() <= each.start < other.start for each in users):
+        if again is None or not (again["more"] or again["said"].casefold() not in _DENIES):
+            continue
+        ahead = [each for each in named(plain) if clause_start(plain, one.start) <= each.start < one.start]
+        behind = [each for each in named(plain) if again.end() <= each.start < other.start]
+        if len(behind) == 1 and ahead:
+            before, between = plain[again.end() : behind[0].start], plain[behind[0].end : other.start]
+            same = behind[0].users == ahead[-1].users  # "user 8 at least, no wait, user 8 at most 1 Mbit/s"
+            alike = same or between.split() == plain[ahead[-1].end : one.start].split()
+            if alike and plain[: ahead[-1].start].casefold().rstrip().endswith(before.casefold().strip()):
                 yield ahead[-1].start, again.end(), ""
 
 
@@ -132,9 +136,10 @@ def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
     times = list(factors(plain))
     spans = [(each.start, each.end) for each in times]
     counted = (each for each in numbers(plain) if not overlaps((each.start, each.end), spans))
-    figures = sorted((*times, *counted), key=lambda each: each.start)
-    found = [(figure, None if figure in times else unit_at(plain, figure.end)) for figure in figures]
-    for (wrong, its), (right, other) in itertools.pairwise(found):
+    multiples = itertools.pairwise(sorted((*times, *counted), key=lambda each: each.start))
+    pairs = [*itertools.pairwise(numbers(plain)), *((a, b) for a, b in multiples if a.form == b.form == "times")]
+    for wrong, right in pairs:
+        its, other = (unit_at(plain, each.end) if each.form != "times" else None for each in (wrong, right))
         said = _RETURN.fullmatch(plain, its.end if its else wrong.end, right.start)
         if said is None or wrong.value == right.value or _LIST_AHEAD.search(plain, 0, wrong.start):
             continue

@@ -88,6 +88,8 @@ class Allotments:
         role, meant = self._likeliest(mention), self._target(mention)
         if role == "given" or not meant.users:
             return role
+        if _GIVEN_ALIKE.behind.match(self._plain, mention.end):  # "le 6 non plus"
+            return "given"
         self._roles[mention] = role
         if role == "exempt":  # a clause that only says to whom nothing is promised: "user 7 has no least rate"
             start, end = clause_start(self._plain, mention.start), clause_end(self._plain, mention.end)

@@ -189,6 +189,7 @@ _BESIDE = deferred(  # between the figures of users one after the other, "@" for
     rf"(?i)(?=[^@]*@)(?:[\s,;:、\uff0c\uff1b\uff1a/&=→>()\[\]@-]|"
     rf"{GIVEN_TO}|{JOINT_WORDS}|{either('figures', 'users', 'given_with')})*"
 )
+_ALONE = deferred(rf"(?i)\s*(?:$|[^\w\s]|{GIVEN_TO}|{JOINT_WORDS})")
 _WHO = deferred(rf"(?i)\s*,?\s*{either('figures', 'users', 'relative')}[^,;.\uff0c；。]*")
 _WITH_A_JOINT = deferred(rf"(?i)(?=\s*\S)(?:{LISTED.pattern.removeprefix('(?i)')})")
 _WEIGHTS = deferred(  # what follows are weights, whatever else they may look like
@@ -293,7 +294,8 @@ class Judged:
 
     def _owners_of(self, start: int) -> Mapping[Mention | None, float]:
         named = [each for each in _named(self._look) if each.end <= start]
-        if named and _WHO.fullmatch(self._look.plain, named[-1].end, start):
+        others = any(named[-1].end <= each.start < start for each in self.mentions) if named else True
+        if not others and _WHO.fullmatch(self._look.plain, named[-1].end, start):
             return {named[-1]: 1.0}  # "except user 5, who needs 1 Mbit/s"
         everyone = [*self.mentions, None]
         seen = self.view.owners(start, everyone)
@@ -319,15 +321,20 @@ class Judged:
             each = [means[start] for start in starts if start in means]
             if each:
                 means |= dict.fromkeys(starts, _jointly(each))
-        for each in self._series:  # "cap 1 at 1.5, 4 at 2 and 6 at 2.5 Mbit/s": one bound
-            bounds = {figure.comparator for figure in each} - {None}
-            first = means[each[0].start]
-            if len(bounds) == 1:
-                bound = _BOUNDED.get(bounds.pop() or "")
-                first = first if bound is None else _moved(first, ("min_rate_bps", "max_rate_bps", "both"), bound)
-            means |= {figure.start: first for figure in each if len(bounds) < 2}
+        for first, *others in self._series:  # "cap 1 at 1.5, 4 at 2 and 6 at 2.5 Mbit/s": one bound
+            alone = [first, *itertools.takewhile(self._has_no_bound, others)]
+            if first.comparator is None and len(alone) > len(others):
+                means |= dict.fromkeys((each.start for each in alone), _jointly([means[each.start] for each in alone]))
+            bound = _BOUNDED.get(first.comparator or "") if first.phrase_start < first.start else None
+            if bound is not None:  # not "2 Mbit/s max, user 3 1 Mbit/s"
+                chances = _moved(means[first.start], ("min_rate_bps", "max_rate_bps", "both"), bound)
+                means |= dict.fromkeys((each.start for each in alone), chances)
         powers = [figure.start for figure in self._look.figures if figure.kind == "power"][:_MOST_POWERS]
         return means | dict(zip(powers, _each_once([means[start] for start in powers]), strict=True))
+
+    def _has_no_bound(self, figure: Quantity) -> bool:
+        """Whether a figure leaves open how it bounds: "user 2 1 Mbit/s guaranteed" does not."""
+        return figure.comparator is None and _ALONE.match(self._look.plain, figure.end) is not None
 
     def said_of(self, mention: Mention) -> Mapping[str, float]:
         """How likely somebody named has each role, by the words alone."""
@@ -416,7 +423,9 @@ def _jointly(chances: Sequence[Mapping[str, float]]) -> dict[str, float]:
 def _series(plain: str, items: Sequence[_Item], named: Sequence[Span]) -> list[list[_Item]]:
     """Items of rows that say of one user after the other the same: "cap 1 at 1.5, 4 at 2 and 6 at 2.5 Mbit/s"."""
     apart = replaced(plain, sorted((start, end, "@" * (end - start)) for start, end in named))
-    return [each for each in _runs(apart, items, _BESIDE) if len(each) > 1]
+    runs = [each for each in _runs(apart, items, _BESIDE) if len(each) > 1]
+    ends = {item.start: last.end for last, item in itertools.pairwise(items)}
+    return [each for each in runs if "@" in apart[ends.get(each[0].start, 0) : each[0].start] or each[0] == items[0]]
 
 
 def _runs(plain: str, items: Sequence[_Item], joint: re.Pattern[str]) -> list[list[_Item]]:

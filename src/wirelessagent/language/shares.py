@@ -14,9 +14,11 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from wirelessagent.language.mentions import GIVEN_TO, named
 from wirelessagent.language.numerals import factors
 from wirelessagent.language.quantities import measures
-from wirelessagent.language.text import clause_start, normalise, overlaps
+from wirelessagent.language.stated import CARRIERS
+from wirelessagent.language.text import clause_end, clause_start, normalise, overlaps
 from wirelessagent.language.word_tables import any_word, deferred, words_of
 
 _OF, _BETWEEN, _WHICH, _MORE, _LESS, _THAN = (
@@ -28,12 +30,16 @@ _OF_IT = any_word("figures", "shares_of", "of_it")
 _WHOSE = rf"(?:\s*{_BETWEEN})*\s*"
 _LESS_THAN = deferred(rf"(?i)\s*(?:{_BELOW})(?:\s*{_BETWEEN})+\s*")
 _TAKEN_OFF = deferred(rf"(?i)\s*(?:{_MINUS}|减去?|少)\s*")
+_PURPOSE = deferred(rf"(?i)\s*(?:{GIVEN_TO}|{_OF}|给|用于)")
 _JOINED = deferred(rf"(?i)\s*{_OF}{_WHOSE}")
 _BEHIND = deferred(r"\s*(?:之中|当中|里面|里|中)?的\s*")
 _ARTICLE = deferred(rf"(?i)\b{any_word('figures', 'users', 'articles')}\s+$")
 _ALL_OF = deferred(rf"(?i)(?:^|[,;:.(\uff0c；：。])\s*(?P<of>{_OF}{_WHOSE})$")
 _ON = r"(?:[^\W\d]+\s+){0,6}"
-_UP_TO_SHARE, _OF_WHICH = deferred(rf"(?i)\s*{_ON}"), deferred(rf"(?i)\s*(?:\w+\s*)?[,\uff0c]?\s*(?P<which>{_WHICH}\s+{_ON})")
+_UP_TO_SHARE, _OF_WHICH = (
+    deferred(rf"(?i)\s*{_ON}"),
+    deferred(rf"(?i)\s*(?:\w+\s*)?[,\uff0c]?\s*(?P<which>{_WHICH}\s+{_ON})"),
+)
 _OF_IT_BEHIND = deferred(
     rf"(?i)\s*(?:{_OF_IT}|{any_word('figures', 'shares_of', 'of_it_as')}"
     rf"(?!\s+{any_word('figures', 'shares_of', 'likened')}(?!\w)))(?!\w)"
@@ -44,7 +50,7 @@ _OF_POWER_AHEAD = deferred(r"(?:总功率|总的功率|功率上限|总上限)�
 _AGAIN = deferred(rf"(?i)[^,;.]*\b(?:{any_word('figures', 'shares_of', 'again')})\b")
 _CHANGED = deferred(rf"(?i)\s*(?:(?P<more>{_MORE})|(?P<less>{_LESS}))(?:\s+{_THAN})?")
 _CHANGED_AHEAD = deferred(r"(?:(?P<more>多|高)|(?P<less>少|低))\s*$")
-_COUNTS = deferred(rf"(?i)\b{any_word('figures', 'users', 'weighs')}\b|权重|权|算")
+_COUNTS = deferred(rf"(?i)\b{any_word('figures', 'users', 'weighs')}\b(?!\s+on\b)|权重|权|算")
 _NO_SHARE = words_of("figures", "shares_of", "no_share")
 _RARELY, _USUALLY = 0.1, 0.9
 """Up to and from where on a percentage of a figure may as well be how often it is to be kept, or missed."""
@@ -79,7 +85,10 @@ def _come_to(plain: str) -> Iterator[tuple[int, int, str]]:
     for one, other in itertools.pairwise(figures):
         below, off = (pattern.fullmatch(plain, one.end, other.start) for pattern in (_LESS_THAN, _TAKEN_OFF))
         less, most = (other, one) if off else (one, other)
-        if (below or off) and one.kind == other.kind and less.value < most.value:  # "5 W below our 25 W"
+        purpose = _PURPOSE.match(plain, other.end)  # "20 W less 5 W for the electronics"
+        if (
+            (below or off) and not purpose and one.kind == other.kind and less.value < most.value
+        ):  # "5 W below our 25 W"
             yield one.start, other.end, _written(most, 1 - less.value / most.value)
     for share in sorted(_shares(plain), key=lambda each: each.start):
         ahead = [figure for figure in figures if figure.end <= share.start]
@@ -125,7 +134,8 @@ def _of_one_ahead(plain: str, share: _Figure, base: _Figure) -> Iterator[tuple[i
     elif _BEHIND.fullmatch(plain, base.end, share.start):  # 30W的六成
         yield base.start, share.end, worth
     elif of_all is not None and _UP_TO_SHARE.fullmatch(plain, base.end, share.start):  # "of our 40 W at most a quarter"
-        yield of_all.start("of"), base.end, ""
+        if CARRIERS.search(plain, share.end, clause_end(plain, share.end)) is None:
+            yield of_all.start("of"), base.end, ""
         yield share.start, share.end, worth
     elif it is not None:
         yield share.start, it.end(), worth
@@ -143,7 +153,8 @@ def _weighed(plain: str, share: _Figure) -> Iterator[tuple[int, int, str]]:
 
 def _counts(plain: str, place: int) -> bool:
     """Whether somebody counts, or weighs, in the clause of a place."""
-    return _COUNTS.search(plain, clause_start(plain, place), place) is not None
+    start = clause_start(plain, place)
+    return _COUNTS.search(plain, start, place) is not None and any(start <= each.start < place for each in named(plain))
 
 
 def _shares(plain: str) -> Iterator[_Figure]:
