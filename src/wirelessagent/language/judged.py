@@ -189,7 +189,7 @@ _BESIDE = deferred(  # between the figures of users one after the other, "@" for
     rf"(?i)(?=[^@]*@)(?:[\s,;:、\uff0c\uff1b\uff1a/&=→>()\[\]@-]|"
     rf"{GIVEN_TO}|{JOINT_WORDS}|{either('figures', 'users', 'given_with')})*"
 )
-_ALONE = deferred(rf"(?i)\s*(?:$|[^\w\s]|{GIVEN_TO}|{JOINT_WORDS})")
+_UNBOUND = deferred(rf"(?i)\s*(?:$|[^\w\s]|{GIVEN_TO}|{JOINT_WORDS})")
 _WHO = deferred(rf"(?i)\s*,?\s*{either('figures', 'users', 'relative')}[^,;.\uff0c；。]*")
 _WITH_A_JOINT = deferred(rf"(?i)(?=\s*\S)(?:{LISTED.pattern.removeprefix('(?i)')})")
 _WEIGHTS = deferred(  # what follows are weights, whatever else they may look like
@@ -334,7 +334,7 @@ class Judged:
 
     def _has_no_bound(self, figure: Quantity) -> bool:
         """Whether a figure leaves open how it bounds: "user 2 1 Mbit/s guaranteed" does not."""
-        return figure.comparator is None and _ALONE.match(self._look.plain, figure.end) is not None
+        return figure.comparator is None and _UNBOUND.match(self._look.plain, figure.end) is not None
 
     def said_of(self, mention: Mention) -> Mapping[str, float]:
         """How likely somebody named has each role, by the words alone."""
