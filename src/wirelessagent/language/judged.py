@@ -38,7 +38,7 @@ from wirelessagent.language.text import (
     replaced,
 )  # fmt: skip
 from wirelessagent.language.units import unit_at
-from wirelessagent.language.word_tables import deferred, either, words_of
+from wirelessagent.language.word_tables import any_word, deferred, either, words_of
 
 BORROWING: Mapping[str, QuantityKind] = {
     "rate": "rate", "power": "power", "multiple": "rate", "outage": "ratio", "reliability": "ratio",
@@ -189,6 +189,14 @@ _BESIDE = deferred(  # between the figures of users one after the other, "@" for
     rf"(?i)(?=[^@]*@)(?:[\s,;:、\uff0c\uff1b\uff1a/&=→>()\[\]@-]|"
     rf"{GIVEN_TO}|{JOINT_WORDS}|{either('figures', 'users', 'given_with')})*"
 )
+_HEADS = {
+    bound: deferred(
+        rf"(?i){any_word('figures', 'bounds', name)}[^.:;\uff1a。；]{{0,20}}[:\uff1a]\s*"
+        r"(?:[^\s.;]*\s){0,4}[^\s.;0-9]*$"
+    )
+    for bound, name in (("min_rate_bps", "floors_of"), ("max_rate_bps", "caps_of"))
+}
+"""What may stand ahead of the first of a series: "floors in Mbit/s: u1 0.5, u2 0.75"."""
 _UNBOUND = deferred(rf"(?i)\s*(?:$|[^\w\s]|{GIVEN_TO}|{JOINT_WORDS})")
 _WHO = deferred(rf"(?i)\s*,?\s*{either('figures', 'users', 'relative')}[^,;.\uff0c；。]*")
 _WITH_A_JOINT = deferred(rf"(?i)(?=\s*\S)(?:{LISTED.pattern.removeprefix('(?i)')})")
@@ -293,7 +301,7 @@ class Judged:
         self._owned += [(self._owners_of(n.start), chances[n]["weight"]) for n in weighty]
 
     def _owners_of(self, start: int) -> Mapping[Mention | None, float]:
-        named = [each for each in _named(self._look) if each.end <= start]
+        named = [each for each in self.mentions if each.role == "named" and each.end <= start]
         others = any(named[-1].end <= each.start < start for each in self.mentions) if named else True
         if not others and _WHO.fullmatch(self._look.plain, named[-1].end, start):
             return {named[-1]: 1.0}  # "except user 5, who needs 1 Mbit/s"
@@ -321,11 +329,15 @@ class Judged:
             each = [means[start] for start in starts if start in means]
             if each:
                 means |= dict.fromkeys(starts, _jointly(each))
-        for first, *others in self._series:  # "cap 1 at 1.5, 4 at 2 and 6 at 2.5 Mbit/s": one bound
-            alone = [first, *itertools.takewhile(self._has_no_bound, others)]
-            if first.comparator is None and len(alone) > len(others):
+        rates = [figure for figure in self._look.figures if figure.kind == "rate"]
+        others = [[figure] for figure in rates if not any(figure in each for each in self._series)]
+        for first, *behind in [*self._series, *others]:  # "cap 1 at 1.5, 4 at 2 and 6 at 2.5 Mbit/s": one bound
+            alone = [first, *itertools.takewhile(self._has_no_bound, behind)]
+            if first.comparator is None and len(alone) > len(behind):
                 means |= dict.fromkeys((each.start for each in alone), _jointly([means[each.start] for each in alone]))
             bound = _BOUNDED.get(first.comparator or "") if first.phrase_start < first.start else None
+            headed = (name for name, head in _HEADS.items() if head.search(self._look.plain, 0, first.start))
+            bound = next(headed, bound) if first.comparator is None else bound
             if bound is not None:  # not "2 Mbit/s max, user 3 1 Mbit/s"
                 chances = _moved(means[first.start], ("min_rate_bps", "max_rate_bps", "both"), bound)
                 means |= dict.fromkeys((each.start for each in alone), chances)
@@ -366,7 +378,8 @@ class Judged:
 
 
 def _named(look: Look) -> list[Mention]:
-    return [mention for mention in look.mentions if mention.role == "named"]
+    """Users who are named, and the others beside them."""
+    return [mention for mention in look.mentions if mention.role in ("named", "others")]
 
 
 def _without_known(plain: str, strangers: Sequence[Span]) -> list[Span]:

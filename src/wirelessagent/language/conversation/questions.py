@@ -84,7 +84,7 @@ def _of_the_result(line: Line) -> Intent | None:
 def read_needed(line: Line) -> Intent | None:
     """The what-if of a question what power rates take, or whether a power is needed or enough; else None."""
     powers = [figure.value for figure in line.figures if figure.kind == "power"]
-    rates = len(line.figures) > len(powers)
+    rates = [figure.value for figure in line.figures if figure.kind == "rate"]
     if has("step", line.wish) or (line.users and not rates):
         return None
     needs = is_all("needs_power", line.wish)
@@ -95,8 +95,10 @@ def read_needed(line: Line) -> Intent | None:
         how = {}
     else:
         return None
-    aim = "min_power" if line.context.objective is None else ""
-    return _what_if(line, asked="power", **how, constraints=_read(line, _RATES), objective=aim)
+    aim, floors = "min_power" if line.context.objective is None else "", _read(line, _RATES)
+    if len(rates) == 1 and not (floors or line.users):  # what a rate takes, each has it
+        floors = {"min_rate_bps": rates[0]}
+    return _what_if(line, asked="power", **how, constraints=floors, objective=aim)
 
 
 def read_promisable(line: Line) -> Intent | None:
