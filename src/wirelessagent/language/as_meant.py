@@ -75,6 +75,9 @@ _RETURN = deferred(  # what stands between a figure and the one that takes its p
 _BACK = deferred(
     rf"(?i)(?:\s*+{_TOKEN}){{0,3}}?\s*+{_PAUSE}*+(?P<said>{_CORRECTS})(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}|是))*+)"
 )
+_INSTEAD = deferred(
+    rf"(?i)(?:\s*{_TOKEN}){{0,3}}?\s*[,\uff0c]?\s*(?P<instead>(?:{either('figures', 'one', 'instead_of')})\s*)"
+)
 _BOUND_BEHIND = "|".join(either("figures", "bounds", name) for name in ("at_least_behind", "at_most_behind"))
 _ENDED = deferred(r"\s*(?:$|[,.;:!?)\uff0c\uff1b。、](?![0-9]))")
 _SURELY_A_RATE, _DENIES = 20, ("no", "non", "不", "不是")
@@ -96,7 +99,7 @@ def without_corrected(text: str) -> str:
     'for user 5 - 1 Mbit/s'
     """
     plain = normalise(text)
-    for start, end, instead in (*_said_again(plain), *_taken_back(plain)):
+    for start, end, instead in (*_said_again(plain), *_taken_back(plain), *_not_meant(plain)):
         text = text[:start] + instead.rjust(end - start) + text[end:]
     left = _fillers(language_of(text)).sub(lambda match: " " * len(match[0]), text)
     return text if left.isspace() else left
@@ -124,6 +127,17 @@ def _said_again(plain: str) -> Iterator[tuple[int, int, str]]:
             alike = same or between.split() == plain[ahead[-1].end : one.start].split()
             if alike and plain[: ahead[-1].start].casefold().rstrip().endswith(before.casefold().strip()):
                 yield ahead[-1].start, again.end(), ""
+
+
+def _not_meant(plain: str) -> Iterator[tuple[int, int, str]]:
+    """Figures that others are said to stand for: "15 W, and not 14", "11 W statt 10 W"."""
+    for one, other in itertools.pairwise(numbers(plain)):
+        its, unit = unit_at(plain, one.end), unit_at(plain, other.end)
+        said = _INSTEAD.fullmatch(plain, its.end, other.start) if its is not None else None
+        end = other.end if unit is None else unit.end
+        alike = its is not None and (unit is None or unit.kind == its.kind)
+        if said is not None and alike and _ENDED.match(plain, end):
+            yield said.start("instead"), end, ""
 
 
 def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
