@@ -85,10 +85,8 @@ def _come_to(plain: str) -> Iterator[tuple[int, int, str]]:
     for one, other in itertools.pairwise(figures):
         below, off = (pattern.fullmatch(plain, one.end, other.start) for pattern in (_LESS_THAN, _TAKEN_OFF))
         less, most = (other, one) if off else (one, other)
-        purpose = _PURPOSE.match(plain, other.end)  # "20 W less 5 W for the electronics"
-        if (
-            (below or off) and not purpose and one.kind == other.kind and less.value < most.value
-        ):  # "5 W below our 25 W"
+        able = one.kind == other.kind and less.value < most.value and (below or off)
+        if able and _PURPOSE.match(plain, other.end) is None:  # no "20 W less 5 W for the electronics"
             yield one.start, other.end, _written(most, 1 - less.value / most.value)
     for share in sorted(_shares(plain), key=lambda each: each.start):
         ahead = [figure for figure in figures if figure.end <= share.start]
