@@ -16,7 +16,7 @@ from collections.abc import Iterator, Mapping
 from wirelessagent.language.mentions import ANY_NOUN, GIVEN_TO, JOINT_WORDS, MOST_USERS, WORD_NUMBER, named
 from wirelessagent.language.numerals import NUMBERED, factors, numbers
 from wirelessagent.language.shares import worked_out
-from wirelessagent.language.text import AND, WORD, clause_start, normalise, overlaps, replaced
+from wirelessagent.language.text import AND, WORD, clause_start, normalise, overlaps, replaced, written_over
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import language_of
 from wirelessagent.language.word_tables import any_word, deferred, either, table
@@ -100,7 +100,7 @@ def without_corrected(text: str) -> str:
     """
     plain = normalise(text)
     for start, end, instead in (*_said_again(plain), *_taken_back(plain), *_not_meant(plain)):
-        text = text[:start] + instead.rjust(end - start) + text[end:]
+        text = written_over(text, start, end, instead)
     left = _fillers(language_of(text)).sub(lambda match: " " * len(match[0]), text)
     return text if left.isspace() else left
 
@@ -115,12 +115,13 @@ def _fillers(language: str) -> re.Pattern[str]:
 def _said_again(plain: str) -> Iterator[tuple[int, int, str]]:
     """What is said of one user and then of another instead: "2 Mbit/s for user 4, no, wait, 2 Mbit/s for user 7"."""
     measured = [(number, unit) for number in numbers(plain) if (unit := unit_at(plain, number.end))]
+    users = list(named(plain)) if len(measured) > 1 else []
     for (one, its), (other, unit) in itertools.pairwise(measured):
         again = _BACK.match(plain, its.end) if one.value == other.value and its.kind == unit.kind else None
-        if again is None or not (again["more"] or again["said"].casefold() not in _DENIES):
+        if again is None or (not again["more"] and again["said"].casefold() in _DENIES):
             continue
-        ahead = [each for each in named(plain) if clause_start(plain, one.start) <= each.start < one.start]
-        behind = [each for each in named(plain) if again.end() <= each.start < other.start]
+        ahead = [each for each in users if clause_start(plain, one.start) <= each.start < one.start]
+        behind = [each for each in users if again.end() <= each.start < other.start]
         if len(behind) == 1 and ahead:
             before, between = plain[again.end() : behind[0].start], plain[behind[0].end : other.start]
             same = behind[0].users == ahead[-1].users  # "user 8 at least, no wait, user 8 at most 1 Mbit/s"

@@ -251,7 +251,8 @@ class Judged:
         likely_users = [n for n in first.loose if chances[n]["user"] > _LIKELY]
         spans = [(each.start, each.end) for each in (*_named(first), *likely_users)]
         for each in _series(plain, [n for n in first.loose if n not in likely_users and n.form != "times"], spans):
-            chances |= dict.fromkeys(each, _jointly([chances[n] for n in each]))
+            if len(each) > 1:
+                chances |= dict.fromkeys(each, _jointly([chances[n] for n in each]))
         if _OF_WEIGHTS.search(plain) is None:  # what doubles there is a rate that was said before
             first_rate = min((figure.end for figure in first.figures if figure.kind == "rate"), default=len(plain))
             doubles = [n for n in chances if n.form == "times" and n.start >= first_rate]
@@ -291,7 +292,7 @@ class Judged:
         ]
         self.lists = [[item.start for item in each] for each in lists if len(each) > 1]
         named_at = [(mention.start, mention.end) for mention in _named(look)]
-        self._series = _series(plain, [figure for figure in look.figures if figure.kind == "rate"], named_at)
+        self._series = list(_series(plain, [figure for figure in look.figures if figure.kind == "rate"], named_at))
         self._said: dict[Mention, Mapping[str, float]] = {}
         owned = (*(figure for figure in look.figures if figure.kind == "rate"), *self.weights)
         self._owners = {item.start: self._owners_of(item.start) for item in owned}
@@ -329,9 +330,7 @@ class Judged:
             each = [means[start] for start in starts if start in means]
             if each:
                 means |= dict.fromkeys(starts, _jointly(each))
-        rates = [figure for figure in self._look.figures if figure.kind == "rate"]
-        others = [[figure] for figure in rates if not any(figure in each for each in self._series)]
-        for first, *behind in [*self._series, *others]:  # "cap 1 at 1.5, 4 at 2 and 6 at 2.5 Mbit/s": one bound
+        for first, *behind in self._series:  # "cap 1 at 1.5, 4 at 2 and 6 at 2.5 Mbit/s": one bound
             alone = [first, *itertools.takewhile(self._has_no_bound, behind)]
             if first.comparator is None and len(alone) > len(behind):
                 means |= dict.fromkeys((each.start for each in alone), _jointly([means[each.start] for each in alone]))
@@ -433,12 +432,14 @@ def _jointly(chances: Sequence[Mapping[str, float]]) -> dict[str, float]:
     return _shares(joint)
 
 
-def _series(plain: str, items: Sequence[_Item], named: Sequence[Span]) -> list[list[_Item]]:
+def _series(plain: str, items: Sequence[_Item], named: Sequence[Span]) -> Iterator[list[_Item]]:
     """Items of rows that say of one user after the other the same: "cap 1 at 1.5, 4 at 2 and 6 at 2.5 Mbit/s"."""
     apart = replaced(plain, sorted((start, end, "@" * (end - start)) for start, end in named))
-    runs = [each for each in _runs(apart, items, _BESIDE) if len(each) > 1]
-    ends = {item.start: last.end for last, item in itertools.pairwise(items)}
-    return [each for each in runs if "@" in apart[ends.get(each[0].start, 0) : each[0].start] or each[0] == items[0]]
+    runs, ends = _runs(apart, items, _BESIDE), {item.start: last.end for last, item in itertools.pairwise(items)}
+    for each in runs:
+        first = each[0].start  # a user stands ahead of it, and no figure of the same user between
+        begins = first not in ends or "@" in apart[ends[first] : first]
+        yield from [each] if begins else [[item] for item in each]
 
 
 def _runs(plain: str, items: Sequence[_Item], joint: re.Pattern[str]) -> list[list[_Item]]:

@@ -18,8 +18,8 @@ from wirelessagent.language.mentions import GIVEN_TO, named
 from wirelessagent.language.numerals import factors
 from wirelessagent.language.quantities import measures
 from wirelessagent.language.stated import CARRIERS
-from wirelessagent.language.text import clause_end, clause_start, normalise, overlaps
-from wirelessagent.language.word_tables import any_word, deferred, words_of
+from wirelessagent.language.text import clause_end, clause_start, normalise, overlaps, written_over
+from wirelessagent.language.word_tables import any_word, deferred, either, words_of
 
 _OF, _BETWEEN, _WHICH, _MORE, _LESS, _THAN = (
     rf"(?<!\w){any_word('figures', 'shares_of', name)}(?!\w)"
@@ -27,12 +27,16 @@ _OF, _BETWEEN, _WHICH, _MORE, _LESS, _THAN = (
 )
 _BELOW, _MINUS = (any_word("figures", "shares_of", name) for name in ("below", "minus"))
 _OF_IT = any_word("figures", "shares_of", "of_it")
+_INSIDE, _PURPOSES, _IT_AHEAD, _POWER_AHEAD, _MORE_AHEAD, _LESS_AHEAD, _WEIGHED = (
+    f"(?:{either('figures', 'shares_of', name)})"
+    for name in ("inside", "purposes", "of_it_ahead", "of_power_ahead", "more_ahead", "less_ahead", "counts")
+)
 _WHOSE = rf"(?:\s*{_BETWEEN})*\s*"
 _LESS_THAN = deferred(rf"(?i)\s*(?:{_BELOW})(?:\s*{_BETWEEN})+\s*")
-_TAKEN_OFF = deferred(rf"(?i)\s*(?:{_MINUS}|减去?|少)\s*")
-_PURPOSE = deferred(rf"(?i)\s*(?:{GIVEN_TO}|{_OF}|给|用于)")
+_TAKEN_OFF = deferred(rf"(?i)\s*{_MINUS}\s*")
+_PURPOSE = deferred(rf"(?i)\s*(?:{GIVEN_TO}|{_OF}|{_PURPOSES})")
 _JOINED = deferred(rf"(?i)\s*{_OF}{_WHOSE}")
-_BEHIND = deferred(r"\s*(?:之中|当中|里面|里|中)?的\s*")
+_BEHIND = deferred(rf"\s*{_INSIDE}\s*")
 _ARTICLE = deferred(rf"(?i)\b{any_word('figures', 'users', 'articles')}\s+$")
 _ALL_OF = deferred(rf"(?i)(?:^|[,;:.(\uff0c；：。])\s*(?P<of>{_OF}{_WHOSE})$")
 _ON = r"(?:[^\W\d]+\s+){0,6}"
@@ -44,13 +48,13 @@ _OF_IT_BEHIND = deferred(
     rf"(?i)\s*(?:{_OF_IT}|{any_word('figures', 'shares_of', 'of_it_as')}"
     rf"(?!\s+{any_word('figures', 'shares_of', 'likened')}(?!\w)))(?!\w)"
 )
-_OF_IT_AHEAD = deferred(r"(?:其中|其|它|这个数?|该值)的?\s*$")
+_OF_IT_AHEAD = deferred(rf"{_IT_AHEAD}\s*$")
 _OF_POWER = deferred(rf"(?i)\s*{any_word('figures', 'shares_of', 'of_power')}(?!\w)")
-_OF_POWER_AHEAD = deferred(r"(?:总功率|总的功率|功率上限|总上限)的\s*$")
+_OF_POWER_AHEAD = deferred(rf"{_POWER_AHEAD}\s*$")
 _AGAIN = deferred(rf"(?i)[^,;.]*\b(?:{any_word('figures', 'shares_of', 'again')})\b")
 _CHANGED = deferred(rf"(?i)\s*(?:(?P<more>{_MORE})|(?P<less>{_LESS}))(?:\s+{_THAN})?")
-_CHANGED_AHEAD = deferred(r"(?:(?P<more>多|高)|(?P<less>少|低))\s*$")
-_COUNTS = deferred(rf"(?i)\b{any_word('figures', 'users', 'weighs')}\b(?!\s+on\b)|权重|权|算")
+_CHANGED_AHEAD = deferred(rf"(?:(?P<more>{_MORE_AHEAD})|(?P<less>{_LESS_AHEAD}))\s*$")
+_COUNTS = deferred(rf"(?i)\b{any_word('figures', 'users', 'weighs')}\b(?!\s+on\b)|{_WEIGHED}")
 _NO_SHARE = words_of("figures", "shares_of", "no_share")
 _RARELY, _USUALLY = 0.1, 0.9
 """Up to and from where on a percentage of a figure may as well be how often it is to be kept, or missed."""
@@ -75,7 +79,7 @@ def worked_out(text: str) -> str:
         article = _ARTICLE.search(text, 0, start)
         start = article.start() if article and instead.endswith(("W", "bps")) else start
         if len(instead) <= end - start:
-            text = text[:start] + instead.rjust(end - start) + text[end:]
+            text = written_over(text, start, end, instead)
     return text
 
 

@@ -97,6 +97,15 @@ def replaced(text: str, spans: Iterable[tuple[int, int, str]]) -> str:
     return "".join([*parts, text[place:]])
 
 
+def written_over(text: str, start: int, end: int, instead: str) -> str:
+    """A text with other words at the end of a span, the rest of which is blank: all else stays at its place.
+
+    >>> written_over("half of 20 W, please", 0, 12, "10W")
+    '         10W, please'
+    """
+    return text[:start] + instead.rjust(end - start) + text[end:]
+
+
 def overlaps(span: Span, others: Iterable[Span]) -> bool:
     """Whether a span shares a character with any of the others.
 
