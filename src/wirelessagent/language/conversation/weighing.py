@@ -30,7 +30,7 @@ from wirelessagent.language.intent import Intent
 from wirelessagent.language.moods import classes_in, is_denied, lifted_in
 from wirelessagent.language.offline import NAME as OFFLINE
 from wirelessagent.language.request import changed, constraints_of
-from wirelessagent.language.text import Span
+from wirelessagent.language.text import Span, overlaps
 
 TALKS_FILE = Path(__file__).parent.parent / "talks.npz"
 BLOCK, OWN = 1.0, 0.25
@@ -219,8 +219,12 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     names_its_aim = request.kind == "allocate" and "objective" in request.evidence
     if not found.acts and names_its_aim and acts and share >= NAMED:
         return intent, False
+    denials = _denials(line)
+    denied = _denies(possible.line, found, denials)
     stays = is_all("kept", line.said) or is_denied(possible.line.plain)  # "user 2's minimum stays", "don't drop it"
-    if not found.acts or (stays and _takes_away(found.acts)) or _uses_what_is_denied(possible.line, found):
+    loses = any(isinstance(act, LeaveOut) for act in found.acts) and denied and not read.effect  # "don't cut user 5 off"
+    kept = loses or (stays and _takes_away(found.acts))
+    if not found.acts or kept or _uses_what_is_denied(possible.line, found, denials):
         doubted = asking_whether(intent, line.voice) if share > HEARD else line.ask("what_changes")
         return (doubted if acts else intent), False
     either = sum(found.shares.get((supposed, found.said[1]), 0.0) for supposed in (False, True))
@@ -229,15 +233,16 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
         sure = either > (SURER if intent.topic == "concept" else LIKELY if asked else SURE)
         supposed = dataclasses.replace(line.question("what_if"), acts=(Suppose(acts=found.acts),))
         return (supposed if sure else intent), sure
-    denied, takes = _denies(possible.line, found), _takes_away(read.acts)
+    takes = _takes_away(read.acts)
     if share >= (NAMED if names_its_aim else SURER if denied else SURE if takes else AGREED):
         return intent, found.said == heard and share >= SURE
     meant = _done(line, possible, found)
     aims = any(isinstance(act, Aim) and act.objective != context.objective for act in found.acts)
     short = len(possible.line.words) < FRAMED
-    negated = intent.asks in _DENIED and bool(_denials(possible.line))
+    negated = intent.asks in _DENIED and bool(denials)
     hardly = aims or read.order < UNLIKELY or negated or denied
-    doubts = aims and intent.guess is not None  # whether another aim is ordered, the guard knows better
+    # whether another aim is ordered, the guard knows better
+    doubts = aims and intent.guess is not None and not line.sentence.chances.is_order
     if found.share >= (SURER if hardly else SURE) and not doubts:
         surely = found.share >= SURER and line.sentence.chances.orders(ORDERED)
         judged = dataclasses.replace(meant, recogniser=OFFLINE)
@@ -252,29 +257,30 @@ def _takes_away(acts: Iterable[Act]) -> bool:
     return any(isinstance(act, Drop | LeaveOut | Undo) for act in acts)
 
 
-def _denies(anchored: Anchored, found: Weighed) -> bool:
+def _denies(anchored: Anchored, found: Weighed, denials: Sequence[Span]) -> bool:
     """Whether a line says "not" of all that it names, or a figure that nothing is done with.
 
     "Don't halve it", "lift it by 2 W" as no limit at all.
     """
-    spaced = [start > 0 or anchored.plain[end : end + 1].isspace() for start, end in _denials(anchored)]  # no "no, 8"
+    spaced = [start > 0 or anchored.plain[end : end + 1].isspace() for start, end in denials]  # no "no, 8"
     bounds = any(anchor.is_bounded for anchor in anchored.anchors)  # "never more than 5 W"
     named = {anchor for anchor in anchored.anchors if anchor.kind != "pronoun"}
     corrects = bounds or not named <= found.used  # "not 7, 8"
     figures = {anchor for anchor in named if anchor.kind in _WITH_UNITS}
-    idle = bool(figures) and not figures & found.used
+    idle = not figures <= found.used
     return idle or (any(spaced) and not corrects)
 
 
-def _uses_what_is_denied(anchored: Anchored, found: Weighed) -> bool:
+def _uses_what_is_denied(anchored: Anchored, found: Weighed, denials: Sequence[Span]) -> bool:
     """Whether a figure is used right behind a word that denies it: "never 5 W"."""
     figures = [anchor for anchor in found.used if anchor.kind in _WITH_UNITS]
-    return any(anchored.plain[end : figure.start].isspace() for _, end in _denials(anchored) for figure in figures)
+    return any(anchored.plain[end : figure.start].isspace() for _, end in denials for figure in figures)
 
 
-def _denials(anchored: Anchored) -> list[Span]:
-    """Where a line denies something."""
-    return [span for name, span in classes_in(anchored.plain) if name.partition(":")[0] in _DENYING]
+def _denials(line: Line) -> list[Span]:
+    """Where a line denies something; what its reader takes for a part of what it orders does not: "without user 5"."""
+    denied = (span for name, span in classes_in(line.anchored.plain) if name.partition(":")[0] in _DENYING)
+    return [span for span in denied if not overlaps(span, line.sentence.reading.masked)]
 
 
 def _stands(line: Line, intent: Intent) -> bool:
