@@ -15,10 +15,11 @@ from dataclasses import dataclass, replace
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.mentions import ARTICLES, Mention, Role
+from wirelessagent.language.moods import lifted_in
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.stated import Beside, Doubt, Reading, doubt_parts, take_blocks, take_counts
-from wirelessagent.language.text import AND, Phrases, clause_end, clause_start, overlaps
+from wirelessagent.language.text import AND, Phrases, Span, clause_end, clause_start, overlaps
 from wirelessagent.language.word_tables import deferred, either
 
 _SURE_OF_A_ROLE, _SURE_OF_SILENCE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.9, 0.5, 0.45
@@ -92,8 +93,8 @@ class Allotments:
             return "given"
         self._roles[mention] = role
         if role == "exempt":  # a clause that only says to whom nothing is promised: "user 7 has no least rate"
-            start, end = clause_start(self._plain, mention.start), clause_end(self._plain, mention.end)
-            if not any(start <= figure.start < end for figure in self._judged.figures):
+            start, end = self._clause_of(mention)
+            if not self._has_figures(start, end):
                 self.spans.append((start, end))
         if role in _UNSETTLED:
             return role
@@ -107,17 +108,21 @@ class Allotments:
     def _exempt(self) -> None:
         """A floor of zero for whoever is excepted where all others have one, and nothing else may be meant.
 
-        Whoever has a cap alone where "the others" have a floor has none either.
+        Whoever has a cap alone where "the others" have a floor has none either. Where limits are of named users alone,
+        there is none to take from whoever is excepted.
         """
         floors, caps = (self._given[name] for name in _RATES)
-        if EVERYBODY not in floors or EVERYBODY in caps:
+        if EVERYBODY in caps or not (floors or caps):
             return
         for mention in [each for each, role in self._roles.items() if role == "exempt"]:
-            if not any(user in floors for user in mention.users):
+            if not any(user in (floors or caps) for user in mention.users):
                 self._used.add(mention)
                 self._roles[mention] = "given"
-                text = self._text[mention.start : mention.end]
-                floors.update({user: _Given(value=0.0, text=text) for user in mention.users})
+                if EVERYBODY in floors:
+                    text = self._text[mention.start : mention.end]
+                    floors.update({user: _Given(value=0.0, text=text) for user in mention.users})
+        if EVERYBODY not in floors:
+            return
         if "min_rate_bps" in self._of_others:
             for user in [user for user in caps if user not in floors]:
                 floors[user] = _Given(value=0.0, text=caps[user].text)
@@ -154,14 +159,25 @@ class Allotments:
     def _likeliest(self, mention: Mention) -> str:
         """What somebody is there for; without certainty it is unclear."""
         chances, said = self._judged.user(mention), self._judged.said_of(mention)
-        if said["exempt"] > _SURE_OF_A_ROLE:  # whatever rate stands beside it is that of all others
-            return "exempt"
+        if said["exempt"] > _SURE_OF_A_ROLE or self._goes_without(mention):
+            return "exempt"  # whatever rate stands beside it is that of all others
         role = self._likely[mention] = max(chances, key=lambda each: chances[each])
         sure = _SURE_OF_SILENCE if role in _SILENT else _SURE_OF_A_ROLE  # nobody is to be dropped unheard
         unsaid = role == "leave_out" and _LEAVING.search(self._plain) is None  # "user 3 has priority"
         if role == "given" or (chances[role] > sure and said[role] > _SAID and not unsaid):
             return role
         return "unclear" if mention.role == "named" and chances["given"] < _SURE_OF_NO_ROLE else "given"
+
+    def _goes_without(self, mention: Mention) -> bool:
+        """Whether all that is said of somebody lifts a limit: "user 6 no guarantee", "no cap on user 3"."""
+        start, end = self._clause_of(mention)
+        return not self._has_figures(start, end) and bool(lifted_in(self._plain[start:end]))
+
+    def _clause_of(self, mention: Mention) -> Span:
+        return clause_start(self._plain, mention.start), clause_end(self._plain, mention.end)
+
+    def _has_figures(self, start: int, end: int) -> bool:
+        return any(start <= figure.start < end for figure in self._judged.figures)
 
     def _one_for_each(self) -> Iterator[tuple[int, Target]]:
         """The figures of lists as long as a list of users, one for each: "users 1 and 4 get 2 and 3 Mbit/s"."""
@@ -287,6 +303,7 @@ _SET_TO = deferred(  # what sets a limit is no wish for the highest rate or the 
     rf"(?i)(?:{either('figures', 'bounds', 'set_to')})\s*$"
 )
 _NOUNS = "|".join(either("figures", "bounds", name) for name in ("between", "rate", "power"))
+_WITH = r"\b(?:with|con|avec|mit|bei)\b"
 _FOR = deferred(r"(?i)\s*(?:\b(?:for|to|für|para|pour|à)\b|给)\s*(?:the\s+|l'\s?|el\s+|los\s+|les\s+)?")
 _TAKES = either("figures", "users", "takes")
 _GETS = deferred(rf"(?i)\s*(?:{_TAKES})\s*(?:(?:only|nur|solo|seulement)\s+)?")
@@ -320,7 +337,7 @@ def _said_of(name: str) -> Beside:
     """Words of a list beside a figure."""
     words = either("figures", "bounds", name)
     return Beside(
-        deferred(rf"(?i)(?:{words})(?:[\s:=]*(?:{_NOUNS}))*[\s:=]*$"),
+        deferred(rf"(?i)(?:{words})(?:[\s:=]*(?!{_WITH})(?:{_NOUNS}))*[\s:=]*$"),
         deferred(rf"(?i)\s*(?:(?:each|apiece|per \w+)\s+)?(?:{words})"),
     )
 
@@ -442,8 +459,6 @@ class _Reader:
         another = self._with(_OF_ANOTHER_KIND, figure)
         if another:
             self._reading.doubt("another_figure", text=another)
-        elif figure.kind == "rate" and self._with(_OF_SEVERAL, figure):
-            return "total_rate"
         elif role == "share":
             self._reading.take_share(figure, self._max_power_w)
         elif figure.kind == "ratio":
@@ -463,6 +478,9 @@ class _Reader:
             self._reading.take(role, figure.value, figure)
         else:
             target = self._allotments.target_of(figure.start)
+            alone = target.sure and len(target.users) == 1  # "sum rate with 1 Mbit/s for user 7"
+            if not alone and self._with(_OF_SEVERAL, figure):
+                return "total_rate"
             denied = target.mention and _NEITHER.search(self._reading.plain, 0, target.mention.start)
             if not target.sure or (denied and figure.comparator is None):  # "neither 3 nor 4 gets 1 Mbit/s"
                 return "whose_rate"
@@ -498,7 +516,7 @@ class _Reader:
     def take_users(self) -> None:
         """What users are given, and those who are counted, some of them, or named for nothing: each is a doubt."""
         reading, allotted = self._reading, self._allotments
-        take_counts(reading, self._judged.recounted, allotted.spans)
+        take_counts(reading, self._judged.recounted, allotted.spans, len(self._judged.users_of_the_cell))
         doubt_parts(reading, allotted.spans)
         for start, end in allotted.take_users():
             reading.doubt("named_user", text=reading.text[start:end])

@@ -26,7 +26,7 @@ from wirelessagent.language.number_words import listed
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Measure, Quantity, QuantityKind, measures
 from wirelessagent.language.request import numbered
-from wirelessagent.language.stated import CARRIERS, COUNTED_USERS, FOREIGN_UNIT, idioms, loose_numbers, may_be_a_limit
+from wirelessagent.language.stated import CARRIERS, COUNTED_USERS, FOREIGN_UNIT, idioms, loose_numbers, may_be_a_limit, shares_power
 from wirelessagent.language.text import (
     WORD_OR_SIGN,
     Phrases,
@@ -146,8 +146,9 @@ def _declared(plain: str, measured: Sequence[Measure]) -> Iterator[Measure]:
         ahead, behind = (
             WORD_OR_SIGN.findall(plain[slice(*span)].lower()) for span in ((first, start), (unit.end, last))
         )
+        bracketed = plain[start - 1 : start] == "[" and plain[unit.end : unit.end + 1] == "]"  # "floors [kbps]: …"
         said_in = ahead[-1:] in (["in"], ["en"]) and not behind and _DENIED.search(plain, first, start) is None
-        if said_in or {*ahead, *behind} <= _DECLARING:
+        if said_in or bracketed or {*ahead, *behind} <= _DECLARING:
             number = Number(value=Decimal(1), start=start, end=start, form="words")
             yield Measure(number=number, unit=unit, start=start, end=unit.end)
 
@@ -325,7 +326,7 @@ class Judged:
         carriers = CARRIERS.search(self._look.plain) is not None
         for place, figure in enumerate(self._look.figures):
             chances = answers(figure.kind, self.view.figure(place))
-            means[figure.start] = _as_bounded(figure, chances, carriers=carriers)
+            means[figure.start] = _as_bounded(self._look.plain, figure, chances, carriers=carriers)
         for starts in self.lists:
             each = [means[start] for start in starts if start in means]
             if each:
@@ -389,13 +390,15 @@ def _without_known(plain: str, strangers: Sequence[Span]) -> list[Span]:
     return [each for each in strangers if not any(is_within(each, span) for span in known)]
 
 
-def _as_bounded(figure: Quantity, chances: Mapping[str, float], *, carriers: bool) -> Mapping[str, float]:
+def _as_bounded(plain: str, figure: Quantity, chances: Mapping[str, float], *, carriers: bool) -> Mapping[str, float]:
     """How likely a figure has each role, a limit being the one that its bound says: what is "at least" is no ceiling.
 
-    No power is one of a subcarrier where nothing speaks of ``carriers``.
+    No power is one of a subcarrier where nothing speaks of ``carriers``; what is "of the power budget" is no promise.
     """
     if figure.kind == "power" and figure.comparator == "at_least":
         return _moved(chances, _CEILINGS, "floor")
+    if figure.kind == "ratio" and shares_power(plain, figure):
+        return _moved(chances, ("outage", "reliability"), "share")
     if figure.kind == "power" and not carriers:
         return _moved(chances, ("subcarrier_max_power_w",), "max_power_w")
     bound = _BOUNDED.get(figure.comparator or "") if figure.kind == "rate" else None

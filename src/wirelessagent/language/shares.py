@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from wirelessagent.language.mentions import GIVEN_TO, named
+from wirelessagent.language.moods import named_in
 from wirelessagent.language.numerals import factors
 from wirelessagent.language.quantities import measures
 from wirelessagent.language.stated import CARRIERS
@@ -95,7 +96,7 @@ def _come_to(plain: str) -> Iterator[tuple[int, int, str]]:
     for share in sorted(_shares(plain), key=lambda each: each.start):
         ahead = [figure for figure in figures if figure.end <= share.start]
         behind = [figure for figure in figures if figure.start >= share.end]
-        powers = [figure for figure in ahead if figure.kind == "power"]
+        powers = [figure for figure in ahead if figure.kind == "power" and not _is_of_a_part(plain, figure)]
         of_power, power = _OF_POWER.match(plain, share.end), _OF_POWER_AHEAD.search(plain, 0, share.start)
         if powers and (of_power or power):  # "each subcarrier at most 2 % of the total power"
             start, end = power.start() if power else share.start, of_power.end() if of_power else share.end
@@ -112,6 +113,13 @@ def _come_to(plain: str) -> Iterator[tuple[int, int, str]]:
             again = bool(behind) and math.isclose(behind[0].value, base.value * share.value, rel_tol=1e-3)
             for start, end, worth in _of_one_ahead(plain, share, base):  # "twice that, namely 1.5 Mbit/s"
                 yield start, end, "" if again else worth
+
+
+def _is_of_a_part(plain: str, power: _Figure) -> bool:
+    """Whether a power is said to be one of the circuits, or of each subcarrier."""
+    clause = plain[clause_start(plain, power.start) : clause_end(plain, power.end)]
+    circuits = any(name == "circuit_power_w" for _, name in named_in(clause))
+    return circuits or CARRIERS.search(clause) is not None
 
 
 def _is_part(share: _Figure) -> bool:

@@ -198,6 +198,13 @@ _SHARED = Beside(
     ),
     deferred(rf"(?i)(?:\s++|{_FULL})*+(?:{_BUDGET})\b(?:\s+(?:budget|limit))?|的?(?:发射|总)?(?:功率|预算)(?!放大)"),
 )
+
+
+def shares_power(plain: str, figure: Quantity) -> bool:
+    """Whether a share is said to be one of the power: "90 % of the power budget"."""
+    return _SHARED.behind.match(plain, figure.phrase_end) is not None
+
+
 _TOGETHER: dict[str, int] = {
     word: size
     for language in languages_with("figures")
@@ -319,10 +326,11 @@ def take_blocks(reading: Reading) -> None:
         reading.take_group(float(size), match.span())
 
 
-def take_counts(reading: Reading, recounted: Sequence[Span], allotted: Sequence[Span]) -> None:
+def take_counts(reading: Reading, recounted: Sequence[Span], allotted: Sequence[Span], of_all: int) -> None:
     """How many users there are is the channel's affair; to pick some of them without naming them is a doubt.
 
-    ``recounted`` are counts of users who are named, ``allotted`` spans that speak of named users.
+    ``recounted`` are counts of users who are named, ``allotted`` spans that speak of named users, and so many users
+    are ``of_all``.
     """
     taken = [*((figure.start, figure.end) for figure in reading.quantities), *reading.spoken_for, *allotted]
     for match in COUNTED_USERS.finditer(reading.plain):
@@ -331,7 +339,8 @@ def take_counts(reading: Reading, recounted: Sequence[Span], allotted: Sequence[
             continue
         words = reading.text[slice(*match.span())]
         reading.counted.append(match.span())
-        if _describes_all(reading, *match.span()):
+        all_of_them = any(match.start() <= n.start < match.end() and n.value == of_all for n in numbers(reading.plain))
+        if all_of_them or _describes_all(reading, *match.span()):
             reading.not_used.append(words)
         else:
             reading.doubt("not_understood" if CARRIERS.search(words) else "some_users", text=words)
