@@ -199,7 +199,7 @@ _HEADS = {
 }
 """What may stand ahead of the first of a series: "floors in Mbit/s: u1 0.5, u2 0.75"."""
 _UNBOUND = deferred(rf"(?i)\s*(?:$|[^\w\s]|{GIVEN_TO}|{JOINT_WORDS})")
-_WHO = deferred(rf"(?i)\s*,?\s*{either('figures', 'users', 'relative')}[^,;.\uff0c；。]*")
+_WHO = deferred(rf"(?i)\s*,?\s*(?:{either('figures', 'users', 'relative')})[^,;.\uff0c；。]*")
 _WITH_A_JOINT = deferred(rf"(?i)(?=\s*\S)(?:{LISTED.pattern.removeprefix('(?i)')})")
 _WEIGHTS = deferred(  # what follows are weights, whatever else they may look like
     rf"(?i)(?:(?:{either('figures', 'users', 'weights')})(?:\s+(?:of|are|is|being|de|von|sind))?|"

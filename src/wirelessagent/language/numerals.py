@@ -45,7 +45,7 @@ _NUMBER = deferred(
     rf"(?:\s?(?P<scale>(?i:{'|'.join(sorted(_SCALES, key=len, reverse=True))})\b(?:\s+(?:de\b|d'))?|[百千]?万|百|亿|"
     rf"千(?!瓦时|赫|米)))?"
     rf"|(?P<fraction>(?<![0-9])[½¼¾])|(?P<word>(?<![{_LETTERS}0-9_])[{_LETTERS}]+(?![0-9_]))"
-    rf"|(?P<chinese>[几零〇一二两三四五六七八九十百千万亿半][零〇一二两三四五六七八九十百千万亿点半]*))"
+    rf"|(?P<chinese>(?!一点(?![零〇一二两三四五六七八九]))[几零〇一二两三四五六七八九十百千万亿半][零〇一二两三四五六七八九十百千万亿点半]*))"
 )
 _WORDS = deferred(rf"[{_LETTERS}]+(?:(?:[\s-]{{1,2}}|'|\s?(?:\.{{3}}|…)\s?)[{_LETTERS}]+){{0,11}}")
 _WORD = deferred(rf"[{_LETTERS}]+")

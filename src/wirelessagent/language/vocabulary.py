@@ -26,7 +26,7 @@ FOLDER = Path(__file__).with_name("base_words")
 _SMALL = frozenset(("the", "a", "and", "of", "in", "to", "it", "be"))
 _TELLING = 3
 """How much speaks for a language, or for it rather than another, where it surely is that one: more than a word."""
-_ALONE = 2
+_ALONE, _NAME = 2, "name"
 """What a word counts that no other language lists; one of English counts 1, as such are said in any."""
 _WORD = deferred(r"[^\W\d_]{2,}")
 _LETTERS = {"es": "ñ¿¡", "fr": "çêœàùèîû", "de": "ßäöü"}
@@ -159,7 +159,9 @@ def _counts(text: str) -> Mapping[str, int]:
     small = text.lower()
     counts: dict[str, int] = dict.fromkeys(("en", "es", "fr", "de"), 0)
     for word in map(unaccented, _WORD.findall(small)):
-        listing = [each for each in counts if word in _base_words(each) or (each == "en" and word in _bases())]
+        listing = [each for each in counts if _base_words(each).get(word, _NAME) != _NAME]
+        if word in _bases() and "en" not in listing:
+            listing.append("en")
         for language in listing:
             counts[language] += 1 if language == "en" or len(listing) > 1 else _ALONE
     for language, letters in _LETTERS.items():

@@ -212,7 +212,7 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
         return intent, False  # it shows only later, such as a promise to a user who is left out
     found = weigh(Signs(line, possible, read, line.voice.language))
     heard: Said = (read.supposes and bool(read.effect), read.effect or frozenset())
-    if any(isinstance(getattr(act, "whom", None), Named) for act in found.acts) and stranger(line.text, context):
+    if any(hasattr(act, "whom") for act in found.acts) and stranger(line.text, context):
         return intent, False  # who is that?
     share, acts = found.shares.get(heard, 0.0), bool(read.effect) and not read.supposes
     request = intent.guess or intent
