@@ -207,8 +207,8 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     if context.objective is None or _stands(line, intent):
         return intent, False
     possible = Possible(line.anchored, context)
-    read = Read.of(line, intent, possible)
-    if read.acts and not read.effect and possible.changed(read.acts) != possible.figures:
+    read = Read.of(intent, possible)
+    if read.acts and not read.effect and changed(possible.figures, read.acts) != possible.figures:
         return intent, False  # it shows only later, such as a promise to a user who is left out
     found = weigh(Signs(line, possible, read, line.voice.language))
     heard: Said = (read.supposes and bool(read.effect), read.effect or frozenset())
@@ -236,7 +236,7 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     aims = any(isinstance(act, Aim) and act.objective != context.objective for act in found.acts)
     short = len(possible.line.words) < FRAMED
     negated = intent.asks in _DENIED and bool(_denials(possible.line))
-    hardly = aims or read.order < UNLIKELY or negated or denied
+    hardly = aims or line.sentence.chances.order < UNLIKELY or negated or denied
     doubts = aims and intent.guess is not None  # whether another aim is ordered, the guard knows better
     if found.share >= (SURER if hardly else SURE) and not doubts:
         surely = found.share >= SURER and line.sentence.chances.orders(ORDERED)
@@ -311,7 +311,7 @@ def _done(line: Line, possible: Possible, found: Weighed) -> Intent:
     acts = found.acts
     if len(acts) == 1 and isinstance(acts[0], Undo):
         return line.command("undo", steps=float(acts[0].steps or 1))
-    before, after = possible.figures, possible.changed(acts)
+    before, after = possible.figures, changed(possible.figures, acts)
     kinds = {kind for kind, _ in after}
     stated = constraints_of({key: figure for key, figure in after.items() if before.get(key) != figure})
     gone = dict.fromkeys(kind for kind, _ in before if kind not in kinds)
