@@ -180,7 +180,7 @@ def with_users(text: str, names: Mapping[str, str]) -> str:
     """
     plain, language = normalise(text), language_of(text)
     given, words = _given(plain), _nicknames(language)
-    known = {**names, **{name: number for _, name, number in given}}
+    known = {**names, **called([text])}
     spans = [
         (*match.span(), words["before"].get((match["before"] or "").lower(), words["user"]) + number)
         for name, number in known.items()
@@ -202,7 +202,7 @@ def only_called(text: str) -> Mapping[str, str]:
     rest = "".join(" " if any(a <= at < b for (a, b), *_ in given) else sign for at, sign in enumerate(plain))
     for language in languages_of(text) if given else ():
         rest = without(_nicknames(language)["aside"], rest)
-    return {} if any(map(str.isalnum, rest)) else {name: number for _, name, number in given}
+    return {} if any(map(str.isalnum, rest)) else called([text])
 
 
 @functools.lru_cache(maxsize=256)

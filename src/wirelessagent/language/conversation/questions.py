@@ -47,15 +47,11 @@ def read_question(line: Line) -> Intent | None:
     """The question that a line is as a whole; None for any other line."""
     if is_all("thanks", line.shape.rstrip(".!。~ ")):
         return line.courtesy("welcome")
-    asked = by_form(line, line.said, _ASKED_EVER)
-    if asked is not None or line.context.objective is None:
+    holds = line.context.objective is not None
+    asked = by_form(line, line.said, {**_ASKED_EVER, **_ASKED} if holds else _ASKED_EVER)
+    if asked is not None or not holds or line.figures:
         return asked
-    asked = by_form(line, line.said, _ASKED)
-    if asked is not None:
-        return asked
-    if not line.figures and has("missing", line.said):
-        return line.question("what_if", missing_share=0.0)
-    return None if line.figures else _of_the_result(line)
+    return line.question("what_if", missing_share=0.0) if has("missing", line.said) else _of_the_result(line)
 
 
 def _of_the_result(line: Line) -> Intent | None:
