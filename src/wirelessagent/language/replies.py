@@ -94,16 +94,16 @@ class Answer:
         reply = self.voice.say(key, **names)
         return self.intent("clarify", confidence, reply, pending=pending or {}, offered=offered, asks=key)
 
-    def command(self, topic: str, details: Mapping[str, Detail], confidence: float) -> Intent:
+    def command(self, topic: str, confidence: float = 1.0, /, **details: Detail) -> Intent:
         """A command of a topic."""
         return self.intent("command", confidence, self.voice.say(f"command.{topic}"), topic=topic, details=details)
 
-    def question(self, topic: str, details: Mapping[str, Detail], confidence: float) -> Intent:
+    def question(self, topic: str, confidence: float = 1.0, /, **details: Detail) -> Intent:
         """A question of a topic."""
         reply = self.voice.say(f"question.{topic}", user=self.voice.users((str(details.get("user", "")),)))
         return self.intent("question", confidence, reply, topic=topic, details=details)
 
-    def out_of_scope(self, key: str, confidence: float, **names: str) -> Intent:
+    def out_of_scope(self, key: str, confidence: float = 1.0, /, **names: str) -> Intent:
         """What asks for nothing that can be done, with the sentence of a key."""
         return self.intent("out_of_scope", confidence, self.voice.say(key, **names))
 

@@ -221,13 +221,13 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
         return intent, False
     stays = is_all("kept", line.said) or is_denied(possible.line.plain)  # "user 2's minimum stays", "don't drop it"
     if not found.acts or (stays and _takes_away(found.acts)) or _uses_what_is_denied(possible.line, found):
-        doubted = asking_whether(intent, line.voice) if share > HEARD else line.ask("what_changes")
+        doubted = asking_whether(intent, line.voice) if share > HEARD else line.answer.ask("what_changes", 1.0)
         return (doubted if acts else intent), False
     either = sum(found.shares.get((supposed, found.said[1]), 0.0) for supposed in (False, True))
     if found.said[0] or (line.is_asked and found.share < SURE < either):  # nothing is done
         asked = not intent.details if intent.kind == "question" else line.is_asked
         sure = either > (SURER if intent.topic == "concept" else LIKELY if asked else SURE)
-        supposed = dataclasses.replace(line.question("what_if"), acts=(Suppose(acts=found.acts),))
+        supposed = dataclasses.replace(line.answer.question("what_if"), acts=(Suppose(acts=found.acts),))
         return (supposed if sure else intent), sure
     denied, takes = _denies(possible.line, found), _takes_away(read.acts)
     if share >= (NAMED if names_its_aim else SURER if denied else SURE if takes else AGREED):
@@ -310,7 +310,7 @@ def _done(line: Line, possible: Possible, found: Weighed) -> Intent:
     """The intent of what is meant, with what it changes in words."""
     acts = found.acts
     if len(acts) == 1 and isinstance(acts[0], Undo):
-        return line.command("undo", steps=float(acts[0].steps or 1))
+        return line.answer.command("undo", steps=float(acts[0].steps or 1))
     before, after = possible.figures, changed(possible.figures, acts)
     kinds = {kind for kind, _ in after}
     stated = constraints_of({key: figure for key, figure in after.items() if before.get(key) != figure})
