@@ -175,6 +175,6 @@ _WORDS = (
 def test_all_that_is_meant_together_is_what_its_acts_come_to(words: list[str]) -> None:
     text = " ".join(words)
     line, held = Line.of(text, HELD), possible(text)
-    read = Read.of(line, read_by_rules(text, HELD, OfflineRecogniser()), held)
+    read = Read.of(read_by_rules(text, HELD, OfflineRecogniser()), held)
     found = weigh(Signs(line, held, read, "en"))
     assert not found.acts or held.effect(found.acts) == found.said[1]

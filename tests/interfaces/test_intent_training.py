@@ -344,5 +344,5 @@ def test_a_model_of_talks_learns_what_it_is_shown_and_is_the_same_each_time(tmp_
     for example in talk_notation.examples(tmp_path):
         line = Line.of(example.text, example.context)
         possible = Possible(Anchored.of(example.text, "en", talk_notation.USERS), example.context)
-        read = Read.of(line, read_as_a_sentence(example.text, example.context, OfflineRecogniser()), possible)
+        read = Read.of(read_as_a_sentence(example.text, example.context, OfflineRecogniser()), possible)
         assert weigh(Signs(line, possible, read, "en"), model).said == (example.supposed, example.effect)

@@ -8,7 +8,7 @@ them. :func:`~wirelessagent.language.intent.acts_of` gives those of an
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias, cast, dataclass_transform
 
@@ -38,13 +38,16 @@ class Others:
 
 Whom: TypeAlias = Everybody | Named | Others
 
+_KINDS = dict[str, type[Any]]()
+"""Each kind of act by its name."""
+
 
 @dataclass_transform(frozen_default=True, kw_only_default=True)
 class _Frozen:
     """What is derived from it is a frozen dataclass with named fields, which need not be said of each."""
 
     def __init_subclass__(cls) -> None:
-        dataclass(frozen=True, kw_only=True)(cls)
+        _KINDS[cls.__name__] = dataclass(frozen=True, kw_only=True)(cls)
 
 
 class Act(_Frozen):
@@ -335,14 +338,7 @@ def act_of(said: Mapping[str, Any]) -> Act:
     >>> act_of(shown(LeaveOut(whom=Named(("2", "9")))))
     LeaveOut(words='', whom=Named(users=('2', '9')))
     """
-    kinds = {kind.__name__: kind for kind in _kinds(Act)}
-    return kinds[said["act"]](**{name: _read(name, value) for name, value in said.items() if name != "act"})
-
-
-def _kinds(kind: type[Act]) -> Iterator[type[Act]]:
-    yield kind
-    for each in kind.__subclasses__():
-        yield from _kinds(each)
+    return _KINDS[said["act"]](**{name: _read(name, value) for name, value in said.items() if name != "act"})
 
 
 def _read(name: str, value: Any) -> Any:

@@ -26,7 +26,15 @@ from wirelessagent.language.number_words import listed
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Measure, Quantity, QuantityKind, measures
 from wirelessagent.language.request import numbered
-from wirelessagent.language.stated import CARRIERS, COUNTED_USERS, FOREIGN_UNIT, idioms, loose_numbers, may_be_a_limit, shares_power
+from wirelessagent.language.stated import (
+    CARRIERS,
+    COUNTED_USERS,
+    FOREIGN_UNIT,
+    idioms,
+    loose_numbers,
+    may_be_a_limit,
+    shares_power,
+)
 from wirelessagent.language.text import (
     WORD_OR_SIGN,
     Phrases,

@@ -282,13 +282,13 @@ class _Understanding:
             topic, details = about(topic, self._sentence)
             if aim is not None and topic == "what_if":
                 details.setdefault("objective", aim)
-            return self._answer.question(topic, details, judged.certainty)
+            return self._answer.question(topic, judged.certainty, **details)
         if judged.kind == "command":
             if self._is_unsure(topic):
                 said = self._voice.say(f"command.{topic}")
                 return self._answer.ask("unsure_command", judged.certainty, offered=topic, text=said)
             assert topic in COMMANDS
-            return self._answer.command(topic, details_of(topic, self._sentence), judged.certainty)
+            return self._answer.command(topic, judged.certainty, **details_of(topic, self._sentence))
         if judged.kind == "out_of_scope":
             if "unsupported" in self._sentence.concepts:
                 text = self._words_for("unsupported")

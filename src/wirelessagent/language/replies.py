@@ -50,12 +50,8 @@ class Voice:
         """The constraints with figures and units, "at least 1 Mbit/s for each user, at most 10 W …"."""
         return limits_in_words(values, self.language)
 
-    def user(self, reference: str) -> str:
-        """What to call a user: "user 3" for "3", "everyone else" for everybody who is not named."""
-        return users_in_words((reference,), self.language)
-
     def users(self, references: Sequence[str]) -> str:
-        """Several users in one list."""
+        """Users in one list: "user 3" for "3", "everyone else" for everybody who is not named."""
         return users_in_words(references, self.language)
 
     def amended(self, values: Mapping[str, Constraint], dropped: Sequence[str]) -> str:
@@ -98,16 +94,16 @@ class Answer:
         reply = self.voice.say(key, **names)
         return self.intent("clarify", confidence, reply, pending=pending or {}, offered=offered, asks=key)
 
-    def command(self, topic: str, details: Mapping[str, Detail], confidence: float) -> Intent:
+    def command(self, topic: str, confidence: float = 1.0, /, **details: Detail) -> Intent:
         """A command of a topic."""
         return self.intent("command", confidence, self.voice.say(f"command.{topic}"), topic=topic, details=details)
 
-    def question(self, topic: str, details: Mapping[str, Detail], confidence: float) -> Intent:
+    def question(self, topic: str, confidence: float = 1.0, /, **details: Detail) -> Intent:
         """A question of a topic."""
-        reply = self.voice.say(f"question.{topic}", user=self.voice.user(str(details.get("user", ""))))
+        reply = self.voice.say(f"question.{topic}", user=self.voice.users((str(details.get("user", "")),)))
         return self.intent("question", confidence, reply, topic=topic, details=details)
 
-    def out_of_scope(self, key: str, confidence: float, **names: str) -> Intent:
+    def out_of_scope(self, key: str, confidence: float = 1.0, /, **names: str) -> Intent:
         """What asks for nothing that can be done, with the sentence of a key."""
         return self.intent("out_of_scope", confidence, self.voice.say(key, **names))
 

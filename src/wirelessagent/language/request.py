@@ -96,7 +96,7 @@ def applied(before: Request | None, said: Iterable[Act], *, radiated_w: float = 
 
 def difference(before: Request | None, after: Request | None) -> Diff:
     """What differs between two requests."""
-    old, new = _held(before), _held(after)
+    old, new = (figures_of({} if each is None else each.constraints) for each in (before, after))
     keys = [key for key in dict.fromkeys((*old, *new)) if old.get(key) != new.get(key)]
     return Diff(
         objective=(before and before.objective, after and after.objective),
@@ -243,10 +243,6 @@ def numbered(user: str) -> str:
     """One name for a user who can be named by number: "user 3" is "3"."""
     found = _NUMBERED.fullmatch(user.strip())
     return found[1] if found else user
-
-
-def _held(request: Request | None) -> dict[Key, float]:
-    return {} if request is None else figures_of(request.constraints)
 
 
 def figures_of(constraints: Mapping[str, Constraint]) -> dict[Key, float]:

@@ -76,7 +76,8 @@ def read_by_rules(text: str, context: Context, recogniser: Recogniser) -> Intent
     text = with_users(text, context.called)
     line = Line.of(text[:_LONGEST], context)
     if noted:
-        return line.courtesy("called", users=", ".join(f"{name} = {number}" for name, number in noted.items()))
+        users = ", ".join(f"{name} = {number}" for name, number in noted.items())
+        return line.answer.out_of_scope("called", users=users)
     intent = commands.made_certain(line, _read(text, line, context, recogniser), text)
     return guarded(text, context, _keeping_what_holds(line, questions.only_supposed(line, intent)))
 

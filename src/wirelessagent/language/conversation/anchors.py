@@ -153,7 +153,7 @@ def _parts(plain: str, anchor: Anchor, most: int) -> Iterator[Anchor]:
 
 
 def _words(plain: str, begin: int, end: int) -> list[str]:
-    return [unaccented(word[0].lower()) or word[0] for word in _WORD.finditer(plain, begin, max(begin, end))]
+    return [unaccented(word[0].lower()) or word[0] for word in _WORD.finditer(plain, begin, end)]
 
 
 def _counts(anchor: Anchor, most: int) -> bool:

@@ -103,7 +103,7 @@ def speaks_of_applying(text: str) -> bool:
 def read_assent(line: Line) -> Intent | None:
     """A line that is about the plan that waits for a yes and about nothing else; None for any other."""
     said = assent(line.text) if line.context.awaits == "confirmation" else "other"
-    return None if said == "other" else line.command({"no": "reject", "apply": "apply"}.get(said, "confirm"))
+    return None if said == "other" else line.answer.command({"no": "reject", "apply": "apply"}.get(said, "confirm"))
 
 
 def _about_applying(plain: str) -> Assent:
@@ -134,7 +134,7 @@ def _agreed(line: Line) -> Intent | None:
     if question.offered is None or moods.plain_command(line.shape) != "confirm":
         return None
     if question.offered in COMMANDS:
-        return line.command(question.offered)
+        return line.answer.command(question.offered)
     return line.allocate(question.offered, question.pending, amends=line.context.objective is not None)
 
 
@@ -162,7 +162,7 @@ def with_limits(line: Line, objective: str | None, limits: Mapping[str, Constrai
     """A request with these limits; without an aim, the question for it."""
     if objective is None:
         key = "rate_only" if "min_rate_bps" in limits else "limits_only"
-        return line.ask(key, limits, constraints=line.voice.constraints(limits))
+        return line.answer.ask(key, 1.0, limits, constraints=line.voice.constraints(limits))
     return line.allocate(objective, limits, amends=line.context.objective is not None)
 
 

@@ -70,7 +70,7 @@ def _chosen(line: Line) -> Intent | None:
     if match is None:
         return None
     name = next(name for name, word in match.groupdict().items() if word)
-    return line.command("confirm", way=float(name.removeprefix("way")) if name != "last" else -1.0)
+    return line.answer.command("confirm", way=float(name.removeprefix("way")) if name != "last" else -1.0)
 
 
 def _taken_up(line: Line, said: str) -> Intent | None:
@@ -79,7 +79,7 @@ def _taken_up(line: Line, said: str) -> Intent | None:
     if not is_all("do_that", said) or context.awaits == "clarification":
         return None
     if (context.ways or context.offers) and context.awaits == "nothing":
-        return line.command("confirm", way="which")
+        return line.answer.command("confirm", way="which")
     if context.supposed_objective is None or (context.awaits == "confirmation" and is_all("apply_it", said)):
         return None
     return line.allocate(context.supposed_objective, context.supposed, amends=False)
@@ -88,13 +88,13 @@ def _taken_up(line: Line, said: str) -> Intent | None:
 def _undone(line: Line, said: str) -> Intent | None:
     if is_all("forget", said):
         open_ = line.context.awaits != "nothing"
-        return line.command("reject", cancel="pending") if open_ else line.command("reset")
+        return line.answer.command("reject", cancel="pending") if open_ else line.answer.command("reset")
     whole = by_form(line, said, _TAKING_BACK)
     if whole is not None:
         return whole
     match = is_all("some_steps", said)
     steps = "" if match is None else _number(match["n"].removeprefix("a "))
-    return line.command("undo", steps=steps) if isinstance(steps, float) and steps >= 1 else None
+    return line.answer.command("undo", steps=steps) if isinstance(steps, float) and steps >= 1 else None
 
 
 def _about_a_turn(line: Line, said: str) -> Intent | None:
@@ -108,7 +108,7 @@ def by_form(line: Line, said: str, forms: Forms) -> Intent | None:
         match = is_all(name, said)
         if match is not None:
             turns = {each: _number(word) for each, word in match.groupdict().items() if word}
-            return (line.command if topic in COMMANDS else line.question)(topic, **details, **turns)
+            return (line.answer.command if topic in COMMANDS else line.answer.question)(topic, **details, **turns)
     return None
 
 
@@ -132,10 +132,10 @@ def made_certain(line: Line, intent: Intent, text: str) -> Intent:
     if topic not in _CHANGING and intent.offered not in _CHANGING:
         return intent
     if line.context.objective is not None and has("names_a_command", lowered(normalise(text))) is None:
-        return line.ask("what_changes")
+        return line.answer.ask("what_changes", 1.0)
     if topic not in _CHANGING:
         return intent
-    return line.ask("unsure_command", offered=topic, text=line.voice.say(f"command.{topic}"))
+    return line.answer.ask("unsure_command", 1.0, offered=topic, text=line.voice.say(f"command.{topic}"))
 
 
 def is_only_a_command(text: str) -> bool:
@@ -173,7 +173,7 @@ def read_method(line: Line) -> Intent | None:
     if is_all("usual_method", line.said):
         return _solved_by(line, OWN_CHOICE)
     if is_all("which_methods", line.said):
-        return line.question("other", listed="methods")
+        return line.answer.question("other", listed="methods")
     shape, name = with_tool(line.said, "method")
     if not name:
         return None
@@ -184,13 +184,15 @@ def read_method(line: Line) -> Intent | None:
     asked = (lead is not None or plain != shape) and is_all("method_used", plain[lead.end() if lead else 0 :])
     if not asked and not is_all("method_gives", shape):
         return None
-    return line.question("other") if line.context.objective is None else line.command("compare", **{"with": name})
+    if line.context.objective is None:
+        return line.answer.question("other")
+    return line.answer.command("compare", **{"with": name})
 
 
 def _solved_by(line: Line, name: str) -> Intent:
     """The request that holds by another method; where none holds, a question that finds nothing to work on."""
     if line.context.objective is None:
-        return line.question("other")
+        return line.answer.question("other")
     return line.allocate(line.context.objective, {}, amends=True, details={"method": name})
 
 

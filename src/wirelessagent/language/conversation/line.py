@@ -135,27 +135,11 @@ class Line:
         dropped = fields.get("dropped", ())
         reply = self.voice.amended(constraints, dropped) if amends else self.voice.restated(objective, constraints, ())
         given: dict[str, Any] = {"reply": reply, "evidence": dict.fromkeys(constraints, self.text.strip()), **fields}
-        return self._answer.intent(
-            "allocate", 1.0, objective=objective, constraints=constraints, amends=amends, **given
-        )
-
-    def command(self, topic: str, **details: Detail) -> Intent:
-        return self._answer.command(topic, details, 1.0)
-
-    def question(self, topic: str, **details: Detail) -> Intent:
-        return self._answer.question(topic, details, 1.0)
-
-    def courtesy(self, key: str, /, **names: str) -> Intent:
-        """Words that ask for nothing, answered in kind."""
-        return self._answer.out_of_scope(key, 1.0, **names)
-
-    def ask(self, key: str, pending: Mapping[str, Constraint] | None = None, /, **names: str) -> Intent:
-        """A question back, whose answer may use what is pending."""
-        return self._answer.ask(key, 1.0, pending, **names)
+        return self.answer.intent("allocate", 1.0, objective=objective, constraints=constraints, amends=amends, **given)
 
     @property
-    def _answer(self) -> Answer:
-        """Intents of the conversation, which are certain."""
+    def answer(self) -> Answer:
+        """Intents of the conversation."""
         return Answer(self.voice, NAME)
 
 
@@ -180,7 +164,7 @@ def with_users(text: str, names: Mapping[str, str]) -> str:
     """
     plain, language = normalise(text), language_of(text)
     given, words = _given(plain), _nicknames(language)
-    known = {**names, **{name: number for _, name, number in given}}
+    known = {**names, **called([text])}
     spans = [
         (*match.span(), words["before"].get((match["before"] or "").lower(), words["user"]) + number)
         for name, number in known.items()
@@ -202,7 +186,7 @@ def only_called(text: str) -> Mapping[str, str]:
     rest = "".join(" " if any(a <= at < b for (a, b), *_ in given) else sign for at, sign in enumerate(plain))
     for language in languages_of(text) if given else ():
         rest = without(_nicknames(language)["aside"], rest)
-    return {} if any(map(str.isalnum, rest)) else {name: number for _, name, number in given}
+    return {} if any(map(str.isalnum, rest)) else called([text])
 
 
 @functools.lru_cache(maxsize=256)

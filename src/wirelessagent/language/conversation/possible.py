@@ -121,10 +121,6 @@ class Possible:
                     for (kind, _), value in effect)  # fmt: skip
         return effect if able and holds else frozenset()
 
-    def changed(self, acts: Sequence[Act]) -> dict[Key, float]:
-        """The figures after acts."""
-        return changed(self.figures, acts)
-
     def _whom(self) -> Iterator[Group]:
         seen, named = set[frozenset[str]](), list[Group]()
 

@@ -46,16 +46,12 @@ _OPEN = ("", "weak", "unclear", "named_user")
 def read_question(line: Line) -> Intent | None:
     """The question that a line is as a whole; None for any other line."""
     if is_all("thanks", line.shape.rstrip(".!。~ ")):
-        return line.courtesy("welcome")
-    asked = by_form(line, line.said, _ASKED_EVER)
-    if asked is not None or line.context.objective is None:
+        return line.answer.out_of_scope("welcome")
+    holds = line.context.objective is not None
+    asked = by_form(line, line.said, {**_ASKED_EVER, **_ASKED} if holds else _ASKED_EVER)
+    if asked is not None or not holds or line.figures:
         return asked
-    asked = by_form(line, line.said, _ASKED)
-    if asked is not None:
-        return asked
-    if not line.figures and has("missing", line.said):
-        return line.question("what_if", missing_share=0.0)
-    return None if line.figures else _of_the_result(line)
+    return line.answer.question("what_if", missing_share=0.0) if has("missing", line.said) else _of_the_result(line)
 
 
 def _of_the_result(line: Line) -> Intent | None:
@@ -66,19 +62,19 @@ def _of_the_result(line: Line) -> Intent | None:
     plain, count = lowered(normalise(line.text)), len(line.users)
     user: dict[str, Detail] = {"user": line.users[0]} if line.users else {}
     if is_all("duration", line.said):
-        return line.question("other", asked="duration")
+        return line.answer.question("other", asked="duration")
     if is_all("bottleneck", line.said) and not count:
-        return line.question("other", asked="limits")
+        return line.answer.question("other", asked="limits")
     place = has("on_subcarrier", plain)
     if has("gain", line.wish) and has("asks_for_gain", line.wish) and (count == 1 or place is not None):
         where: dict[str, Detail] = {} if place is None else {"subcarrier": number_of(place["place"])}
-        return line.question("users", asked="gain", **user, **where)
+        return line.answer.question("users", asked="gain", **user, **where)
     owner = is_all("owner", plain.strip().rstrip("?.。! "))
     if owner is not None:
-        return line.question("users", subcarrier=number_of(owner["place"]))
+        return line.answer.question("users", subcarrier=number_of(owner["place"]))
     if count <= 1 and is_all("listed", line.said):
-        return line.question("users", listed="subcarriers", **user)
-    return line.question("users", **user) if count == 1 and is_all("share_of_one", line.said) else None
+        return line.answer.question("users", listed="subcarriers", **user)
+    return line.answer.question("users", **user) if count == 1 and is_all("share_of_one", line.said) else None
 
 
 def read_needed(line: Line) -> Intent | None:
@@ -125,7 +121,7 @@ def read_promisable(line: Line) -> Intent | None:
 
 def _what_if(line: Line, **details: Detail) -> Intent:
     """The question what would be, with those details that say something."""
-    return line.question("what_if", **{name: value for name, value in details.items() if value not in ("", {})})
+    return line.answer.question("what_if", **{name: value for name, value in details.items() if value not in ("", {})})
 
 
 def _read(line: Line, names: tuple[str, ...]) -> dict[str, Constraint]:
@@ -143,9 +139,9 @@ def read_comparison(line: Line) -> Intent | None:
     found = Sentence(line.text, own_words()).found
     aims = dict.fromkeys(each.term.objective for each in found if each.term.objective)
     if aims:
-        return line.command("compare", aims=" ".join(aims)) if len(aims) <= _MOST_COMPARED else None
+        return line.answer.command("compare", aims=" ".join(aims)) if len(aims) <= _MOST_COMPARED else None
     tools = tools_named(line.text, "method", "repairer") if has("better", line.shape) else ()
-    return line.command("compare", **{"with": " ".join(tools)}) if tools else None
+    return line.answer.command("compare", **{"with": " ".join(tools)}) if tools else None
 
 
 def _compared(text: str) -> list[Quantity]:
@@ -165,7 +161,7 @@ def _of_figures(line: Line, figures: list[Quantity]) -> Intent | None:
         return None
     limits = [_limit(line, figure) for figure in figures]
     details: dict[str, Detail] = {f"either_{place}": limit for place, limit in enumerate(limits, start=1) if limit}
-    return line.command("compare", **details) if len(details) == len(figures) else None
+    return line.answer.command("compare", **details) if len(details) == len(figures) else None
 
 
 def _limit(line: Line, figure: Quantity) -> dict[str, Constraint]:
@@ -197,7 +193,7 @@ def asked_instead(line: Line, understood: Intent) -> Intent | None:
         if sum(questions.values()) > max(others):
             likeliest = max(questions, key=lambda label: questions[label]).partition(".")[2]
             topic, details = about(likeliest, line.sentence)
-            return line.question(topic, **details)
+            return line.answer.question(topic, **details)
     if line.users and understood.asks == "named_user":
         reply = line.voice.say("what_of_user", users=line.voice.users(line.users))
         return dataclasses.replace(understood, reply=reply, asks="what_of_user")
@@ -211,11 +207,11 @@ def given_instead(line: Line, intent: Intent) -> Intent:
     if intent.kind != "question" or intent.details:
         return intent
     if intent.topic == "what_if" and has("given", line.shape):
-        return line.question("what_if", of="channel")
+        return line.answer.question("what_if", of="channel")
     if intent.topic not in ("why_user", "users") or intent.recogniser not in (OFFLINE, NAME):
         return intent  # a language model names users itself
     named = line.anchored.named(len(line.context.user_names))
-    return line.question(intent.topic, user=named[0]) if len(named) == 1 else intent
+    return line.answer.question(intent.topic, user=named[0]) if len(named) == 1 else intent
 
 
 def only_supposed(line: Line, intent: Intent) -> Intent:
@@ -224,7 +220,7 @@ def only_supposed(line: Line, intent: Intent) -> Intent:
     if intent.kind != "allocate" or not (supposing or moods.asks_without_a_mark(line.text)):
         return intent
     if not supposing and not intent.constraints and not intent.dropped and not intent.acts:
-        return line.question("other")  # "what's the total rate" names no aim
+        return line.answer.question("other")  # "what's the total rate" names no aim
     stays = intent.objective == line.context.objective and (intent.constraints or intent.dropped)
     aim, dropped = "" if stays else str(intent.objective), " ".join(intent.dropped)
     asked = _what_if(line, constraints=intent.constraints, dropped=dropped, objective=aim)

@@ -24,6 +24,7 @@ from wirelessagent.language.figure_roles import answers
 from wirelessagent.language.intent import Intent, acts_of, stated
 from wirelessagent.language.judged import first_look
 from wirelessagent.language.moods import classes_in
+from wirelessagent.language.request import changed
 from wirelessagent.language.sentence import BUILT_IN
 from wirelessagent.language.text import hashed, overlaps
 from wirelessagent.language.vocabulary import aligned, based
@@ -31,16 +32,12 @@ from wirelessagent.language.vocabulary import aligned, based
 
 @dataclass(frozen=True, kw_only=True)
 class Read:
-    """A line as the readers of sentences see it.
+    """What the readers of sentences make of a line.
 
     Attributes:
         kind: of their intent; ``topic`` is who read it, and what it is about or what it asks.
         acts, guessed: what they would do, or suppose, and what they ask whether to do.
         effect, guess: what that comes to; None for nothing.
-        supposes: whether they would only suppose it.
-        order: how likely it orders something.
-        kinds: how likely each kind of sentence is.
-        roles: by where a figure, a number or users stand, how likely they are there for what.
     """
 
     kind: str
@@ -49,21 +46,20 @@ class Read:
     guessed: tuple[Act, ...]
     effect: Effect | None
     guess: Effect | None
-    supposes: bool
-    order: float
-    kinds: Mapping[str, float]
-    roles: Mapping[int, Mapping[str, float]]
 
     @classmethod
-    def of(cls, line: Line, intent: Intent, possible: Possible) -> Read:
+    def of(cls, intent: Intent, possible: Possible) -> Read:
         """What an intent does to what holds."""
-        sentence, topic = line.sentence, intent.asks or intent.topic or ""
         acts, guessed = _changing(intent), _guessed(intent)
         return cls(
-            kind=intent.kind, topic=f"{intent.recogniser == NAME}:{topic}", acts=acts, guessed=guessed,
-            effect=_effect(acts, possible), guess=_effect(guessed, possible), supposes=intent.kind == "question",
-            order=sentence.chances.order, kinds=sentence.chances.kinds, roles=_roles(line),
+            kind=intent.kind, topic=f"{intent.recogniser == NAME}:{intent.asks or intent.topic or ''}", acts=acts,
+            guessed=guessed, effect=_effect(acts, possible), guess=_effect(guessed, possible),
         )  # fmt: skip
+
+    @property
+    def supposes(self) -> bool:
+        """Whether they would only suppose it."""
+        return self.kind == "question"
 
 
 def _roles(line: Line) -> dict[int, Mapping[str, float]]:
@@ -151,6 +147,7 @@ class Signs:
 
     def __init__(self, line: Line, possible: Possible, read: Read, language: str) -> None:
         self._line, self._possible, self._read, self.anchored = line, possible, read, possible.line
+        self._order, self._kinds, self._roles = line.sentence.chances.order, line.sentence.chances.kinds, _roles(line)
         words = self.anchored.words
         bases = [f"B{word}" for word in based(words, language)]
         pairs = [f"{a} {b}" for a, b in itertools.pairwise(["<", *words, ">"])]
@@ -168,7 +165,8 @@ class Signs:
 
     def plainness(self, changes: Sequence[Change], likely: float) -> tuple[bool, int, float]:
         """How plainly changes say what they come to: of those whom the line names, with few figures that change."""
-        before, after = self._possible.figures, self._possible.changed([act for each in changes for act in each.acts])
+        before = self._possible.figures
+        after = changed(before, (act for each in changes for act in each.acts))
         written = sum(before.get(key) != after.get(key) for key in {*before, *after})
         is_said = not any(change.source.startswith(("not:", "alike:")) for change in changes)
         return is_said, -written - len(changes), likely
@@ -189,16 +187,14 @@ class Signs:
 
     def _of_line(self) -> Iterator[str]:
         """What is said of a line as a whole."""
-        read, kinds = self._read, self._read.kinds
-        asked = sum(share for kind, share in kinds.items() if kind.startswith(("question", "out_of_scope")))
+        kinds, order = self._kinds, level(self._order)
+        asked = level(sum(share for kind, share in kinds.items() if kind.startswith(("question", "out_of_scope"))))
         yield f"asked:{self._line.is_asked}"
-        yield f"q:{level(asked)}"
-        yield f"o:{level(read.order)}"
-        yield f"o:{level(read.order)}:q:{level(asked)}"
+        yield from (f"q:{asked}", f"o:{order}", f"o:{order}:q:{asked}")
         yield f"top:{max(kinds, key=lambda kind: kinds[kind])}"
         yield f"length:{min(len(self.anchored.words) // 3, 8)}"
         yield f"aims:{level(max(kinds[aim] for aim in BUILT_IN))}"
-        yield f"read:{read.kind}:{read.topic}"
+        yield f"read:{self._read.kind}:{self._read.topic}"
         yield f"figures:{len(self.anchored.figures)}"
         yield "anchors:" + "+".join(anchor.kind for anchor in self.anchored.anchors)
 
@@ -249,14 +245,14 @@ class Signs:
         if change.is_supposition:
             yield f"supposes:{self._read.supposes}:{bool(self._read.effect)}"
         if form == "aim":
-            share, order = self._read.kinds[change.kind], self._read.order
-            yield from (f"aim:{level(share)}", f"aim:{level(share)}:{level(order)}")
-            yield f"aim first:{share == max(self._read.kinds[aim] for aim in BUILT_IN)}"
+            share = self._kinds[change.kind]
+            yield from (f"aim:{level(share)}", f"aim:{level(share)}:{level(self._order)}")
+            yield f"aim first:{share == max(self._kinds[aim] for aim in BUILT_IN)}"
         for name, other in (("read", self._read.effect), ("guess", self._read.guess)):
             related = relation(change.effect, other)
             if name == "read" or other is not None:
                 yield from (f"{name}:{related}", f"{name}:{related}|{form}", f"{name}:{related}|{whole}")
-                yield f"{name}:{related}:{level(self._read.order)}"
+                yield f"{name}:{related}:{level(self._order)}"
 
     def _by_roles(self, change: Change, left: Sequence[Anchor], form: str, kind: str, whole: str) -> Iterator[str]:
         """What the model of roles makes of the figure and the users of a change, and of what it leaves."""
@@ -265,7 +261,7 @@ class Signs:
         ]  # fmt: skip
         for name, anchors in named:
             for anchor in anchors[:_MOST]:
-                for role, share in self._read.roles.get(anchor.start, {}).items():
+                for role, share in self._roles.get(anchor.start, {}).items():
                     if share >= _LIKELY:
                         sign = f"{name}:{role}:{level(share)}"
                         yield from (f"{sign}|{form}", f"{sign}|{kind}")

@@ -207,8 +207,8 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     if context.objective is None or _stands(line, intent):
         return intent, False
     possible = Possible(line.anchored, context)
-    read = Read.of(line, intent, possible)
-    if read.acts and not read.effect and possible.changed(read.acts) != possible.figures:
+    read = Read.of(intent, possible)
+    if read.acts and not read.effect and changed(possible.figures, read.acts) != possible.figures:
         return intent, False  # it shows only later, such as a promise to a user who is left out
     found = weigh(Signs(line, possible, read, line.voice.language))
     heard: Said = (read.supposes and bool(read.effect), read.effect or frozenset())
@@ -222,16 +222,18 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     denials = _denials(line)
     denied = _denies(possible.line, found, denials)
     stays = is_all("kept", line.said) or is_denied(possible.line.plain)  # "user 2's minimum stays", "don't drop it"
-    loses = any(isinstance(act, LeaveOut) for act in found.acts) and denied and not read.effect  # "don't cut user 5 off"
+    loses = (
+        any(isinstance(act, LeaveOut) for act in found.acts) and denied and not read.effect
+    )  # "don't cut user 5 off"
     kept = loses or (stays and _takes_away(found.acts))
     if not found.acts or kept or _uses_what_is_denied(possible.line, found, denials):
-        doubted = asking_whether(intent, line.voice) if share > HEARD else line.ask("what_changes")
+        doubted = asking_whether(intent, line.voice) if share > HEARD else line.answer.ask("what_changes", 1.0)
         return (doubted if acts else intent), False
     either = sum(found.shares.get((supposed, found.said[1]), 0.0) for supposed in (False, True))
     if found.said[0] or (line.is_asked and found.share < SURE < either):  # nothing is done
         asked = not intent.details if intent.kind == "question" else line.is_asked
         sure = either > (SURER if intent.topic == "concept" else LIKELY if asked else SURE)
-        supposed = dataclasses.replace(line.question("what_if"), acts=(Suppose(acts=found.acts),))
+        supposed = dataclasses.replace(line.answer.question("what_if"), acts=(Suppose(acts=found.acts),))
         return (supposed if sure else intent), sure
     takes = _takes_away(read.acts)
     if share >= (NAMED if names_its_aim else SURER if denied else SURE if takes else AGREED):
@@ -240,7 +242,7 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     aims = any(isinstance(act, Aim) and act.objective != context.objective for act in found.acts)
     short = len(possible.line.words) < FRAMED
     negated = intent.asks in _DENIED and bool(denials)
-    hardly = aims or read.order < UNLIKELY or negated or denied
+    hardly = aims or line.sentence.chances.order < UNLIKELY or negated or denied
     # whether another aim is ordered, the guard knows better
     doubts = aims and intent.guess is not None and not line.sentence.chances.is_order
     if found.share >= (SURER if hardly else SURE) and not doubts:
@@ -316,8 +318,8 @@ def _done(line: Line, possible: Possible, found: Weighed) -> Intent:
     """The intent of what is meant, with what it changes in words."""
     acts = found.acts
     if len(acts) == 1 and isinstance(acts[0], Undo):
-        return line.command("undo", steps=float(acts[0].steps or 1))
-    before, after = possible.figures, possible.changed(acts)
+        return line.answer.command("undo", steps=float(acts[0].steps or 1))
+    before, after = possible.figures, changed(possible.figures, acts)
     kinds = {kind for kind, _ in after}
     stated = constraints_of({key: figure for key, figure in after.items() if before.get(key) != figure})
     gone = dict.fromkeys(kind for kind, _ in before if kind not in kinds)

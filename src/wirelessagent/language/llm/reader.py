@@ -129,7 +129,7 @@ class Case:
             return voice.restated(intent.objective, intent.constraints, ()) if amended is None else amended
         if intent.kind == "out_of_scope" or intent.topic is None:
             return voice.say("out_of_scope" if intent.kind == "out_of_scope" else "help")
-        return voice.say(f"{intent.kind}.{intent.topic}", user=voice.user(str(intent.details.get("user", ""))))
+        return voice.say(f"{intent.kind}.{intent.topic}", user=voice.users((str(intent.details.get("user", "")),)))
 
     def _request(self, meaning: Meaning) -> dict[str, Any]:
         objective = meaning.objective or (self._context.objective if meaning.amends else None)

@@ -118,7 +118,7 @@ def parsed(example: Example) -> Parsed:
     """Everything that a line may mean, as numbers."""
     line = Line.of(example.text, example.context)
     possible = Possible(Anchored.of(example.text, example.context.language, USERS), example.context)
-    read = Read.of(line, read_by_rules(example.text, example.context, OfflineRecogniser()), possible)
+    read = Read.of(read_by_rules(example.text, example.context, OfflineRecogniser()), possible)
     signs = Signs(line, possible, read, example.context.language)
     changes = tuple(signs.changes())
     named = [signs.blocks(change) for change in changes]
