@@ -18,7 +18,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.acts import Act, Aim, Drop, LeaveOut, Limit, Named, Suppose, Undo
+from wirelessagent.language.acts import Act, Aim, Drop, LeaveOut, Limit, Suppose, Undo
 from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.conversation.anchors import Anchor, Anchored
 from wirelessagent.language.conversation.answers import speaks_of_applying
@@ -221,12 +221,8 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
         return intent, False
     denials = _denials(line)
     denied = _denies(possible.line, found, denials)
-    stays = is_all("kept", line.said) or is_denied(possible.line.plain)  # "user 2's minimum stays", "don't drop it"
-    loses = (
-        any(isinstance(act, LeaveOut) for act in found.acts) and denied and not read.effect
-    )  # "don't cut user 5 off"
-    kept = loses or (stays and _takes_away(found.acts))
-    if not found.acts or kept or _uses_what_is_denied(possible.line, found, denials):
+    keeps = _keeps(line, read, found, denied=denied)
+    if not found.acts or keeps or _uses_what_is_denied(possible.line, found, denials):
         doubted = asking_whether(intent, line.voice) if share > HEARD else line.answer.ask("what_changes", 1.0)
         return (doubted if acts else intent), False
     either = sum(found.shares.get((supposed, found.said[1]), 0.0) for supposed in (False, True))
@@ -257,6 +253,16 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
 def _takes_away(acts: Iterable[Act]) -> bool:
     """Whether acts take a limit, a promise or service from somebody, or the last change back."""
     return any(isinstance(act, Drop | LeaveOut | Undo) for act in acts)
+
+
+def _keeps(line: Line, read: Read, found: Weighed, *, denied: bool) -> bool:
+    """Whether a line that is taken for one that takes something away says that it stays.
+
+    "User 2's minimum stays", "don't drop it", "don't cut user 5 off".
+    """
+    loses_service = any(isinstance(act, LeaveOut) for act in found.acts) and not read.effect
+    stays = is_all("kept", line.said) or is_denied(line.sentence.plain) or (denied and loses_service)
+    return bool(stays) and _takes_away(found.acts)
 
 
 def _denies(anchored: Anchored, found: Weighed, denials: Sequence[Span]) -> bool:
