@@ -16,7 +16,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from wirelessagent.language import moods
-from wirelessagent.language.acts import Prefer
+from wirelessagent.language.acts import Aim, Drop, LeaveOut, Limit, Named, Prefer, Scale, Serve
 from wirelessagent.language.conversation.line import Forms, Line, begins, form, has, is_all
 from wirelessagent.language.intent import COMMANDS, OWN_CHOICE, Intent
 from wirelessagent.language.number_words import cardinals
@@ -166,6 +166,21 @@ def _command_words() -> tuple[frozenset[str], re.Pattern[str], re.Pattern[str]]:
     words = {language: listed["words"].split() for language, listed in _LISTED.items()}
     chinese = sorted(words.pop("zh"), key=len, reverse=True)
     return frozenset(itertools.chain.from_iterable(words.values())), re.compile("|".join(chinese)), denies
+
+
+def read_alike(line: Line) -> Intent | None:
+    """What was said last of some users, said of another one: "user 6 too"; "nor 6" of what takes something away."""
+    context, denied = line.context, is_all("alike_denied", line.said) is not None
+    last = context.acts if context.earlier[-1:] == (context.acts,) and context.awaits != "clarification" else ()
+    if context.objective is None or not (denied or is_all("alike", line.said)):
+        return None
+    able = (LeaveOut, Drop) if denied else (LeaveOut, Drop, Limit, Scale, Serve)
+    acts = [act for act in last if not isinstance(act, Aim)]
+    users = line.anchored.named(len(context.user_names))
+    alike = tuple(dataclasses.replace(act, whom=Named(users)) for act in acts
+                  if isinstance(act, able) and isinstance(act.whom, Named))  # fmt: skip
+    same = bool(users and alike) and len(alike) == len(acts)
+    return line.allocate(context.objective, {}, amends=True, acts=alike) if same else None
 
 
 def read_method(line: Line) -> Intent | None:
