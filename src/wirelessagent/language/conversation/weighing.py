@@ -238,7 +238,8 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     aims = any(isinstance(act, Aim) and act.objective != context.objective for act in found.acts)
     short = len(possible.line.words) < FRAMED
     negated = intent.asks in _DENIED and bool(denials)
-    hardly = aims or line.sentence.chances.order < UNLIKELY or negated or denied
+    answers = intent.kind == "clarify" and context.awaits == "clarification"  # or turns to something else
+    hardly = aims or line.sentence.chances.order < UNLIKELY or negated or denied or answers
     # whether another aim is ordered, the guard knows better
     doubts = aims and intent.guess is not None and not line.sentence.chances.is_order
     if found.share >= (SURER if hardly else SURE) and not doubts:
@@ -295,8 +296,8 @@ def _stands(line: Line, intent: Intent) -> bool:
     """Whether what is read of a line is not weighed.
 
     That is a line of closed words, a command, what names a method, a question of a certain thing, what a language model
-    read, an answer to a question, a figure that can't be or that no limit holds, and words on applying a plan that
-    waits ("apply it at 6 pm").
+    read, an answer to a question about users, a figure that can't be or that no limit holds, and words on applying a
+    plan that waits ("apply it at 6 pm").
     """
     context, another = line.context, intent.recogniser not in (OFFLINE, NAME)
     about_the_plan = context.awaits == "confirmation" and speaks_of_applying(line.text)
@@ -307,7 +308,8 @@ def _stands(line: Line, intent: Intent) -> bool:
         certain = missing or intent.topic not in ("other", "what_if", "concept", "capabilities")
         return intent.recogniser == NAME or certain
     if intent.kind == "clarify":
-        return context.awaits == "clarification" or (intent.asks in _CERTAIN and not _is_taken_off(line))
+        of_whom = context.awaits == "clarification" and bool(context.question.users) and not line.figures
+        return of_whom or (intent.asks in _CERTAIN and not _is_taken_off(line))
     answers_nothing = intent.topic in ("confirm", "reject") and context.awaits == "nothing"
     commands = intent.kind == "command" and intent.topic != "undo" and not answers_nothing and intent.confidence > SURE
     return intent.recogniser == NAME or commands
