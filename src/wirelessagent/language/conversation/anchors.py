@@ -198,7 +198,8 @@ def _anchors(text: str, plain: str, language: str, names: Sequence[str]) -> Iter
     shares, pattern = _shares(language)
     found = [(share.start(), share.end(), shares[share[0]]) for share in pattern.finditer(low)]
     found += [(each.start, each.end, float(each.value)) for each in factors(low) if each.value is not None]
-    counted = [_with_its_part(low, each) for each in numbers(low, language) if each.value is not None]
+    small = plain.lower() if len(plain.lower()) == len(plain) else low  # "fünf" has its accent
+    counted = [_with_its_part(low, each) for each in numbers(small, language) if each.value is not None]
     for start, end, value in found:
         part = any(first < start and end <= last and number >= 1 for first, last, number in counted)
         if not part and not overlaps((start, end), taken):  # "two and a half"

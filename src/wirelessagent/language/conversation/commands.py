@@ -21,7 +21,7 @@ from wirelessagent.language.conversation.line import Forms, Line, begins, form, 
 from wirelessagent.language.intent import COMMANDS, OWN_CHOICE, Intent
 from wirelessagent.language.number_words import cardinals
 from wirelessagent.language.offline import NAME
-from wirelessagent.language.text import lowered, normalise
+from wirelessagent.language.text import lowered, normalise, replaced
 from wirelessagent.language.topics import number_of, with_tool
 from wirelessagent.language.word_tables import deferred, languages_with, table
 
@@ -170,17 +170,26 @@ def _command_words() -> tuple[frozenset[str], re.Pattern[str], re.Pattern[str]]:
 
 def read_alike(line: Line) -> Intent | None:
     """What was said last of some users, said of another one: "user 6 too"; "nor 6" of what takes something away."""
-    context, denied = line.context, is_all("alike_denied", line.said) is not None
+    context = line.context
     last = context.acts if context.earlier[-1:] == (context.acts,) and context.awaits != "clarification" else ()
-    if context.objective is None or not (denied or is_all("alike", line.said)):
+    said = _with_its_user(line) if context.objective is not None and last else ""
+    denied = is_all("alike_denied", said) is not None
+    if not denied and is_all("alike", said) is None:
         return None
     able = (LeaveOut, Drop) if denied else (LeaveOut, Drop, Limit, Scale, Serve)
-    acts = [act for act in last if not isinstance(act, Aim)]
+    whose = [act for act in last if isinstance(act, able) and isinstance(act.whom, Named)]
     users = line.anchored.named(len(context.user_names))
-    alike = tuple(dataclasses.replace(act, whom=Named(users)) for act in acts
-                  if isinstance(act, able) and isinstance(act.whom, Named))  # fmt: skip
-    same = bool(users and alike) and len(alike) == len(acts)
-    return line.allocate(context.objective, {}, amends=True, acts=alike) if same else None
+    of_one = (act for act in whose if act.whom == whose[-1].whom)
+    alike = tuple(Serve(whom=Named(users)) if isinstance(act, Serve) else dataclasses.replace(act, whom=Named(users))
+                  for act in of_one)  # fmt: skip
+    return line.allocate(context.objective, {}, amends=True, acts=alike) if users and alike else None
+
+
+def _with_its_user(line: Line) -> str:
+    """What a line says, with a mark in the place of those whom it names first, by a number alone or by more."""
+    anchors = [each for each in line.anchored.anchors if each.kind in ("users", "number")]
+    spans = [(each.start, each.end, "@") for each in anchors[:1]]
+    return replaced(line.anchored.plain, spans).lower().rstrip("?.。! ").strip()
 
 
 def read_method(line: Line) -> Intent | None:
