@@ -52,6 +52,35 @@ ODD, EVEN = ("1", "3", "5", "7"), ("2", "4", "6", "8")
          {"min_rate_bps": {"all": 8e5, "3": 1.6e6, "6": 4e5}}),
         ("le plus faible au plus haut, le 5 ne dépasse pas 1,5 Mbit/s, le 6 non plus",
          {"max_rate_bps": dict.fromkeys("56", 1.5e6)}),
+        ("max sum rate, users 6, 7, 8 no guarantee, users 1 through 5 at least 150 kbit/s",
+         {"min_rate_bps": dict.fromkeys("12345", 1.5e5)}),
+        ("max rate, user 2 at most 1 Mbit/s, no cap on user 3", {"max_rate_bps": {"2": 1e6}}),
+        ("奇数号用户保底1 Mbps，偶数号用户不作保证，总速率最大。", {"min_rate_bps": dict.fromkeys(ODD, 1e6)}),
+        ("Gerade Nutzernummern höchstens 1 Mbit/s, ungerade ohne Deckel, Ziel: proportional fair.",
+         {"max_rate_bps": dict.fromkeys(EVEN, 1e6)}),
+        ("Usuarios impares, 500 kbps garantizados; pares, 1000 kbps garantizados; la menor potencia posible.",
+         {"min_rate_bps": {**dict.fromkeys(ODD, 5e5), **dict.fromkeys(EVEN, 1e6)}}),
+        ("Utilisateurs pairs : 1 Mbit/s minimum ; impairs : 400 kbit/s minimum ; but : la puissance la plus faible.",
+         {"min_rate_bps": {**dict.fromkeys(EVEN, 1e6), **dict.fromkeys(ODD, 4e5)}}),
+        ("only odd-numbered users 1, 3, 5, 7 get served, each with 1.1 Mbps or more, least power",
+         {"min_rate_bps": 1.1e6, "users": ODD}),
+        ("le meilleur débit cumulé ; l'utilisateur 1 ne dépasse pas 1 Mbit/s, le 2 pas 2 Mbit/s, le 3 pas 3 Mbit/s.",
+         {"max_rate_bps": {"1": 1e6, "2": 2e6, "3": 3e6}}),
+        ("除用户3需要2 Mbit/s外，其余用户都保底300 kbit/s，发射功率尽量小。",
+         {"min_rate_bps": {"all": 3e5, "3": 2e6}}),
+        ("除了用户4和5,其他人都要至少700 kbps,总速率最大。", {"min_rate_bps": {"all": 7e5, "4": 0.0, "5": 0.0}}),
+        ("用户一到三下限0.8 Mbps,用户八下限1.6 Mbps,总吞吐最高。",
+         {"min_rate_bps": {**dict.fromkeys("123", 8e5), "8": 1.6e6}}),
+        ("lowest Tx power; floors [kbps]: u1=100, u2=200, u3=300", {"min_rate_bps": {"1": 1e5, "2": 2e5, "3": 3e5}}),
+        ("max the sum rate with 1 Mbps for users 1 to 4", {"min_rate_bps": dict.fromkeys("1234", 1e6)}),
+        ("max sum rate with a 0.002 Gbit/s floor for user 7", {"min_rate_bps": {"7": 2e6}}),
+        ("bring the total rate of the eight users to its maximum", {}),
+        ("不是用户5,是用户6要2.2 Mbps保底,发射功率降到最小。", {"min_rate_bps": {"6": 2.2e6}}),
+        ("not user 3 but user 2 needs 2 Mbps; max sum rate", {"min_rate_bps": {"2": 2e6}}),
+        ("No el usuario 8 sino el 7 queda fuera; máxima tasa total", {"leave_out": ("7",)}),
+        ("maximale Summenrate mit 90 Prozent vom Leistungsbudget", {"max_power_w": 18.0}),
+        ("most bits per joule, circuit power 7.5 W, no more than 80 % of the power budget",
+         {"circuit_power_w": 7.5, "max_power_w": 16.0}),
         ("100 kbit/s at least for users 1 to 3, 200 for users 4 to 6, least power",
          {"min_rate_bps": {**dict.fromkeys("123", 1e5), **dict.fromkeys("456", 2e5)}}),
     ],
@@ -60,3 +89,13 @@ def test_each_user_has_the_figure_that_is_said_of_them(text: str, values: dict[s
     reading = Sentence(text, own_words(), names=NAMES).reading
     assert not reading.doubts
     assert {name: dict(value) if isinstance(value, dict) else value for name, value in reading.values.items()} == values
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "max sum rate, serve only users 1 and 2, the others at 1 Mbit/s", "max sum rate of 5 Mbit/s for users 1 and 2",
+    ],
+)  # fmt: skip
+def test_what_may_be_of_others_is_asked(text: str) -> None:
+    assert Sentence(text, own_words(), names=NAMES).reading.doubts

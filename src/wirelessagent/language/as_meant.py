@@ -80,6 +80,13 @@ _INSTEAD = deferred(
 )
 _BOUND_BEHIND = "|".join(either("figures", "bounds", name) for name in ("at_least_behind", "at_most_behind"))
 _ENDED = deferred(r"\s*(?:$|[,.;:!?)\uff0c\uff1b。、](?![0-9]))")
+_NOT_AHEAD = deferred(
+    rf"(?i)(?:^|[\s,;:.\uff0c。；])(?P<denies>(?:{either('figures', 'one', 'not_who')})\s*(?:{GIVEN_TO}\s*)*)$"
+)
+_BUT_BEHIND = deferred(
+    rf"(?i)\s*号?(?P<but>{either('figures', 'one', 'but_who')})\s*(?:{GIVEN_TO}\s*)*(?:{ANY_NOUN}\s*)?"
+    rf"(?:[0-9]+|{WORD_NUMBER}\b)"
+)
 _SURELY_A_RATE, _DENIES = 20, ("no", "non", "不", "不是")
 """From where on a whole number without a unit is nobody's, and words that deny what follows as often as they take back
 what stands before, when they stand alone."""
@@ -99,7 +106,7 @@ def without_corrected(text: str) -> str:
     'for user 5 - 1 Mbit/s'
     """
     plain = normalise(text)
-    for start, end, instead in (*_said_again(plain), *_taken_back(plain), *_not_meant(plain)):
+    for start, end, instead in (*_said_again(plain), *_taken_back(plain), *_not_meant(plain), *_not_who(plain)):
         text = written_over(text, start, end, instead)
     left = _fillers(language_of(text)).sub(lambda match: " " * len(match[0]), text)
     return text if left.isspace() else left
@@ -139,6 +146,14 @@ def _not_meant(plain: str) -> Iterator[tuple[int, int, str]]:
         alike = its is not None and (unit is None or unit.kind == its.kind)
         if said is not None and alike and _ENDED.match(plain, end):
             yield said.start("instead"), end, ""
+
+
+def _not_who(plain: str) -> Iterator[tuple[int, int, str]]:
+    """Users whom others are said to stand for: "not user 3 but user 2", "不是用户5，是用户6"."""
+    for each in named(plain):
+        ahead, behind = _NOT_AHEAD.search(plain, 0, each.start), _BUT_BEHIND.match(plain, each.end)
+        if ahead is not None and behind is not None and unit_at(plain, behind.end()) is None:
+            yield ahead.start("denies"), behind.end("but"), ""
 
 
 def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:

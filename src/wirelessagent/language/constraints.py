@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
 from wirelessagent.language.judged import Judged
-from wirelessagent.language.mentions import ARTICLES, Mention, Role
+from wirelessagent.language.mentions import ARTICLES, WITHOUT, Mention, Role
 from wirelessagent.language.moods import lifted_in
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
@@ -162,6 +162,8 @@ class Allotments:
         if said["exempt"] > _SURE_OF_A_ROLE or self._goes_without(mention):
             return "exempt"  # whatever rate stands beside it is that of all others
         role = self._likely[mention] = max(chances, key=lambda each: chances[each])
+        if role == "users" and self._others_have_a_rate(mention):  # who are served then, too
+            return "exempt" if WITHOUT.search(self._plain[slice(*self._clause_of(mention))]) else "unclear"
         sure = _SURE_OF_SILENCE if role in _SILENT else _SURE_OF_A_ROLE  # nobody is to be dropped unheard
         unsaid = role == "leave_out" and _LEAVING.search(self._plain) is None  # "user 3 has priority"
         if role == "given" or (chances[role] > sure and said[role] > _SAID and not unsaid):
@@ -172,6 +174,11 @@ class Allotments:
         """Whether all that is said of somebody lifts a limit: "user 6 no guarantee", "no cap on user 3"."""
         start, end = self._clause_of(mention)
         return not self._has_figures(start, end) and bool(lifted_in(self._plain[start:end]))
+
+    def _others_have_a_rate(self, mention: Mention) -> bool:
+        """Whether the others, named behind somebody, have a rate in their clause: "除了用户4和5，其他人至少700k"."""
+        others = (each for each in self._found if each.role == "others" and each.start >= mention.end)
+        return any(self._has_figures(*self._clause_of(each)) for each in others)
 
     def _clause_of(self, mention: Mention) -> Span:
         return clause_start(self._plain, mention.start), clause_end(self._plain, mention.end)

@@ -191,7 +191,7 @@ _SIZES = {"part": 1 - 1e-9, "small": 20, "some": 99, "large": math.inf}  # of nu
 SCALED = deferred(r"\s?(?:[kKM]|(?<![2-6])(?<![2-6] )G)(?![^\W\d_])")  # "5G" may be a network
 _FAR = 8
 _USERS = deferred(rf"(?i){NOUN}|{ZH_NOUN}")  # which is nobody's name
-_SURE_OF_A_NAME, _SURE_OF_A_LARGE_NAME, _PART_OF_A_NAME, _SHORTEST_NAME, _SHORT_NAME = 0.6, 0.35, 0.2, 2, 4
+_SURE_OF_A_NAME, _PART_OF_A_NAME, _SHORTEST_NAME = 0.6, 0.2, 2
 _MOST_TELLING, _TELLS, _NEARLY, _TINY = 3, 1.0, 0.85, 1e-6
 _JOINT = deferred(r"(?i)\b(?:and|then|y|et|und)\b")
 _WORD = deferred(rf"[{CJK}]|(?:(?![{CJK}])[\w'’-])+")
@@ -350,38 +350,27 @@ class View:
             around_it = self._kinds[max(0, place - 1) : place + 2]
             known += [f"with:{word}{''.join(around_it[-1:])}", f"behind:{''.join(around_it[:1])}{word}"]
         else:
-            known += [f"large:{self._is_large(start)}:{self._begins(place)}:{self._language}", f"ends:{word[-3:]}"]
+            first = place == 0 or not self._kinds[place - 1].isalpha()
+            large = self._plain[start].isupper() and not self._plain.isupper()  # not in "SAVE POWER"
+            known += [f"large:{large}:{first}:{self._language}", f"ends:{word[-3:]}"]
         return around(self._tokens, place, known)
-
-    def _is_large(self, start: int) -> bool:
-        """Whether a word begins with a capital letter, and not all of them do: "SAVE POWER"."""
-        return self._plain[start].isupper() and not self._plain.isupper()
-
-    def _begins(self, place: int) -> bool:
-        """Whether a word begins a clause."""
-        return place == 0 or not self._kinds[place - 1].isalpha()
-
-    def _named_from(self, place: int) -> float:
-        """How likely a word has to be somebody: less where only names begin with a capital letter, and go on small."""
-        said = self._plain[slice(*self.span(place))]
-        large = said.istitle() and len(said) >= _SHORT_NAME and not self._begins(place)
-        return _SURE_OF_A_LARGE_NAME if large and self._language not in ("de", "zh") else _SURE_OF_A_NAME
 
     def strangers(self) -> list[tuple[int, int]]:
         """The spans of what somebody is called who is none of those mentioned; words beside may be a part of it."""
-        found: list[tuple[int, int, bool]] = []
+        found: list[tuple[int, int, float]] = []
         for place in self.words:
             chance = answers("word", self.word(place))["somebody"]
-            sure = chance > self._named_from(place)
-            if chance <= _PART_OF_A_NAME and not sure:
+            if chance <= _PART_OF_A_NAME:
                 continue
             (start, end), beside = self.span(place), found[-1:]
             if beside and not self._plain[beside[0][1] : start].strip(" .-"):
-                found[-1] = (beside[0][0], end, beside[0][2] or sure)
+                found[-1] = (beside[0][0], end, max(beside[0][2], chance))
             else:
-                found.append((start, end, sure))
-        known = ((start, end) for start, end, sure in found if sure and end - start >= _SHORTEST_NAME)
-        return [span for span in known if not _USERS.fullmatch(self._plain, *span)]
+                found.append((start, end, chance))
+        sure = ((start, end) for start, end, chance in found if chance > _SURE_OF_A_NAME)
+        return [
+            span for span in sure if span[1] - span[0] >= _SHORTEST_NAME and not _USERS.fullmatch(self._plain, *span)
+        ]
 
     def span(self, place: int) -> tuple[int, int]:
         """Where the word of a token stands."""

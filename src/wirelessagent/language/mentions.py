@@ -75,7 +75,7 @@ _ZH_LIST = "[0-9]{3,4}|" + "|".join(
     for number in ("[0-9]{1,2}(?![0-9])", "[一二三四五六七八九十]{1,3}")
 )
 _ZH = deferred(
-    rf"(?<!其他)(?<!其它)(?<!其余)(?:{ZH_NOUN}\s*(?P<after>{_ZH_LIST})(?!\s*[个名位台户兆瓦点起样直定边次共切致下])号?)"
+    rf"(?<!其他)(?<!其它)(?<!其余)(?:{ZH_NOUN}\s*(?P<after>{_ZH_LIST})(?!\s*[个名位台户兆瓦点起样直定边次共切致]|下(?!限))号?)"
     rf"|(?<![权重乘取为=.0-9月])(?!(?<=重[设是给算])[0-9]{{1,4}}\s*[,\uff0c]|(?<=[第之]){_ZH_NUMBER}\s*[,\uff0c、])(?P<hao>{_ZH_LIST})\s*[号號](?!线|楼|院|机房|站|小区|基站|人|桌|门|馆|店|厅|早|晚)\s*{ZH_NOUN}?"
     rf"|(?<!倒数)第\s*(?P<nth>{_ZH_NUMBER})\s*[个位名]\s*{ZH_NOUN}"
 )
@@ -129,7 +129,7 @@ _UP_TO = deferred(rf"(?i)\s*号?(?:{_TO}(?:l')?|\s*[到至]\s*)")
 _ITEM = deferred(rf"(?i)[0-9]+|\b{_ORDINAL}\b|{WORD_NUMBER}\b|[一二三四五六七八九十]+")
 _AND_BETWEEN = deferred(r"(?i)[a-z和与跟及&/、]")
 _LAST_COMMA = deferred(rf"(?i)\s*[,\uff0c]\s*(?:(?:{AND}|e)\s+)?(?=[^,\uff0c]*$)")
-_WITHOUT = Phrases(either("figures", "users", "without"))
+WITHOUT = Phrases(either("figures", "users", "without"))
 _GOES_ON = deferred(rf"(?i)\s*(?:$|[=≥≤<>:,.;!?、\uff0c。；]|(?:{AND}|or)\b|和)")
 
 
@@ -150,7 +150,10 @@ def mentions(plain: str, names: Sequence[str] = (), taken: Sequence[tuple[int, i
     [('named', ('3', '5')), ('others', ())]
     """
     found: list[Mention] = []
-    for mention in [*_own_names(plain, names), *_by_place(plain, len(names)), *_spoken_of(plain)]:
+    spoken_of = _spoken_of(plain)
+    listed = [(each.start, each.end) for each in spoken_of if len(each.users) > 1]  # "odd-numbered users 1, 3 and 5"
+    placed = (each for each in _by_place(plain, len(names)) if not overlaps((each.start, each.end), listed))
+    for mention in [*_own_names(plain, names), *placed, *spoken_of]:
         if not overlaps((mention.start, mention.end), [*taken, *((other.start, other.end) for other in found)]):
             found.append(mention)
     return merged(plain, sorted(found, key=lambda mention: mention.start))
@@ -292,7 +295,7 @@ def _parted(plain: str, mention: Mention) -> tuple[Mention, ...]:
     first, last = _listed(plain[mention.start : comma.start()]), _listed(plain[comma.end() : mention.end])
     ahead = plain[max(clause_start(plain, mention.start), mention.start - _NEAR) : mention.start]
     own = not plain[comma.end()].isdigit() or plain[comma.start() - 1] in "号號"  # "el 4", "8号"
-    apart = own and len(last) == 1 and _WITHOUT.search(ahead) is not None and not _GOES_ON.match(plain, mention.end)
+    apart = own and len(last) == 1 and WITHOUT.search(ahead) is not None and not _GOES_ON.match(plain, mention.end)
     if not last or not ({*last} <= {*first} or (apart and (*first, *last) == mention.users)):
         return (mention,)
     return (

@@ -26,8 +26,8 @@ __all__ = ["NAME", "called", "unanswered", "understood", "with_users"]
 _LONGEST = 200
 """Characters of a line that may lean on the conversation; a longer one speaks for itself."""
 _READERS = (
-    commands.read_command, answers.read_assent, commands.read_alike, commands.read_method, questions.read_comparison, questions.read_needed,
-    questions.read_promisable, questions.read_question, answers.read_answer,
+    commands.read_command, answers.read_assent, commands.read_alike, commands.read_method, questions.read_comparison,
+    questions.read_needed, questions.read_promisable, questions.read_question, answers.read_answer,
 )  # fmt: skip
 """What a line may be because of its conversation, the closest first."""
 

@@ -16,7 +16,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from wirelessagent.language import moods
-from wirelessagent.language.acts import Aim, Drop, LeaveOut, Limit, Named, Prefer, Scale, Serve
+from wirelessagent.language.acts import Drop, LeaveOut, Limit, Named, Prefer, Scale, Serve
 from wirelessagent.language.conversation.line import Forms, Line, begins, form, has, is_all
 from wirelessagent.language.intent import COMMANDS, OWN_CHOICE, Intent
 from wirelessagent.language.number_words import cardinals
