@@ -7,6 +7,10 @@ from typing import Any
 import pytest
 from conversations import talk, talked_into
 
+from wirelessagent.language.conversation import understood
+from wirelessagent.language.offline import OfflineRecogniser
+from wirelessagent.language.recogniser import Context
+
 pytestmark = pytest.mark.machine_code
 
 LEAST_POWER = "least power, 200 kbit/s for everybody"
@@ -81,6 +85,16 @@ def test_a_little_is_no_figure(said: str) -> None:
 def test_a_line_behind_a_question_turns_to_something_else(lines: tuple[str, ...], held: dict[str, Any]) -> None:
     held_in_fact, turns = talked_into(*lines)
     assert (turns[1].stage, held_in_fact) == ("asked", held)
+
+
+def test_no_figure_of_a_line_goes_unused_unasked() -> None:
+    """One of two powers would be set, and the other one lost."""
+    context = Context(
+        user_names=tuple(f"user {number}" for number in range(1, 9)), objective="proportional_fairness",
+        constraints={"max_power_w": 16.0}, language="en",
+    )  # fmt: skip
+    said = "Proportional fair mit 36 dBm, Blöcke zu vier Unterträgern, pro Unterträger maximal 200 mW."
+    assert understood(said, context, OfflineRecogniser()).kind == "clarify"
 
 
 def test_a_name_does_not_change_the_language() -> None:
