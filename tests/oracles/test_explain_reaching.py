@@ -12,8 +12,7 @@ from questions import answer
 import wirelessagent as wa
 from wirelessagent.model.units import human
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.steps import Reach, for_the_total, has_reach, rate_step, reach
-from wirelessagent.telling.margins import Steps
+from wirelessagent.telling.facts.steps import for_the_total, has_reach, rate_step, reach
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)
@@ -54,15 +53,6 @@ def test_what_no_power_reaches_is_told() -> None:
     assert "out of reach" in told(case, "step", rate_bps=1e12)
     assert "nothing" in told(case, "step", rate_bps=-1e12)
     assert not has_reach(case_of("min_power", min_rate_bps=3e5))
-
-
-def test_what_no_power_keeps_is_told() -> None:
-    case = case_of("max_rate")
-    beyond = Reach(target=case.decision.value, power_w=np.nan, tried_w=1e5)
-    said = Steps(case, "en").told(rate_step(case, 1e5, 0), beyond)
-    figure = human(case.decision.value, "bit/s")
-    assert f"The total rate cannot be kept at {figure}: not even 100 kW would do." in said
-    assert ", ," not in said
 
 
 @pytest.mark.parametrize("language", ["en", "zh"])
