@@ -64,7 +64,7 @@ def test_more_rate_costs_watts(language: str) -> None:
         assert figure in said
     share = told(case, "step", language, rate_share=0.1)
     assert human(1.1 * case.decision.value, "bit/s") in share
-    kept = reach(case, case.decision.value, rate_step(case, 3e5, 0).problem)
+    kept = reach(case, case.decision.value, rate_step(case, 3e5, 0).after.problem)
     assert human(kept.power_w, "W") in told(case, "step", language, 0, rate_bps=3e5)
     assert "300 kbit/s" in told(case, "step", language, rate_bps=3e5, each=1.0)
     least = case_of("min_power", min_rate_bps=3e5)
