@@ -140,7 +140,7 @@ class Proofs(Teller):
         key = "promise" if outage is not None else "holds" if found.expected_missed < _HARDLY_ANY else "may_fail"
         served, sure = int((self.case.decision.committed_bps > 0).sum()), reliability(outage or 0.0)
         asked = outage is None and self.case.problem.promises_rates
-        at = {"user": self.case.estimate.user_names[user], "place": parts.place(subcarrier, subcarrier, self.language)}
+        at = {"user": self.case.estimate.user_names[user], "place": self.place(subcarrier, subcarrier)}
         return [
             self.say("certainty.band", low=low, high=high) if low != high else "",
             self.say(f"certainty.{key}", served=served, sure=sure, **told, missed=found.expected_missed),

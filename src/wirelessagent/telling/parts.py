@@ -47,6 +47,10 @@ class Teller(Voice):
         """What users are called, in a row."""
         return listed(self.language, self.case.named(users))
 
+    def place(self, first: int, last: int) -> str:
+        """Subcarriers as people count them, from 1."""
+        return self.say("part.one" if first == last else "part.several", first=first + 1, last=last + 1)
+
     def why(self, decision: Decision) -> str:
         """Why there is no allocation, or what else a decision says of itself."""
         return reason_in_words(decision, self.language)
@@ -100,11 +104,6 @@ def value_name(decision: Decision, language: str) -> str:
     if named or objective.measure != "utility":
         return named or message(language, f"part.{objective.measure}")
     return message(language, "part.rate" if objective.unit == "bit/s" else "text.value")
-
-
-def place(first: int, last: int, language: str) -> str:
-    """Subcarriers as people count them, from 1."""
-    return message(language, "part.one" if first == last else "part.several", first=first + 1, last=last + 1)
 
 
 def outcome_in_words(decision: Decision, language: str) -> str:
