@@ -12,8 +12,7 @@ from questions import answer
 import wirelessagent as wa
 from wirelessagent.model.units import human
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.steps import Reach, for_the_total, has_reach, rate_step, reach
-from wirelessagent.telling.margins import Steps
+from wirelessagent.telling.facts.steps import for_the_total, has_reach, rate_step, reach
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)
@@ -56,15 +55,6 @@ def test_what_no_power_reaches_is_told() -> None:
     assert not has_reach(case_of("min_power", min_rate_bps=3e5))
 
 
-def test_what_no_power_keeps_is_told() -> None:
-    case = case_of("max_rate")
-    beyond = Reach(target=case.decision.value, power_w=np.nan, tried_w=1e5)
-    said = Steps(case, "en").told(rate_step(case, 1e5, 0), beyond)
-    figure = human(case.decision.value, "bit/s")
-    assert f"The total rate cannot be kept at {figure}: not even 100 kW would do." in said
-    assert ", ," not in said
-
-
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_more_rate_costs_watts(language: str) -> None:
     case = case_of("max_rate")
@@ -74,7 +64,7 @@ def test_more_rate_costs_watts(language: str) -> None:
         assert figure in said
     share = told(case, "step", language, rate_share=0.1)
     assert human(1.1 * case.decision.value, "bit/s") in share
-    kept = reach(case, case.decision.value, rate_step(case, 3e5, 0).problem)
+    kept = reach(case, case.decision.value, rate_step(case, 3e5, 0).after.problem)
     assert human(kept.power_w, "W") in told(case, "step", language, 0, rate_bps=3e5)
     assert "300 kbit/s" in told(case, "step", language, rate_bps=3e5, each=1.0)
     least = case_of("min_power", min_rate_bps=3e5)

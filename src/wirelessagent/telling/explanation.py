@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wirelessagent.model.arrays import BoolArray
 from wirelessagent.model.decision import OPTIMAL_GAP, Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.objective import Objective
@@ -141,7 +140,7 @@ class Proofs(Teller):
         key = "promise" if outage is not None else "holds" if found.expected_missed < _HARDLY_ANY else "may_fail"
         served, sure = int((self.case.decision.committed_bps > 0).sum()), reliability(outage or 0.0)
         asked = outage is None and self.case.problem.promises_rates
-        at = {"user": self.case.estimate.user_names[user], "place": parts.place(subcarrier, subcarrier, self.language)}
+        at = {"user": self.case.estimate.user_names[user], "place": self.place(subcarrier, subcarrier)}
         return [
             self.say("certainty.band", low=low, high=high) if low != high else "",
             self.say(f"certainty.{key}", served=served, sure=sure, **told, missed=found.expected_missed),
@@ -196,11 +195,6 @@ class _Explanation(Proofs):
         """What the value is called; empty where its unit says it all."""
         return parts.name_of_figure(self.case.decision, self.language)
 
-    @property
-    def _without_rate(self) -> BoolArray:
-        """True for users whose rate counts, who are served and have a weight, and who get none."""
-        return (self.case.decision.rate_bps <= 0) & (self.case.problem.weights_of(self.case.num_users) > 0)
-
     def _forecast(self) -> list[str]:
         """What is promised and how surely, what is expected of the true channel where that is not sure, and what is
         planned or asked for on it.
@@ -241,8 +235,8 @@ class _Explanation(Proofs):
         decision, figure = self.case.decision, self._own_figure
         if figure:
             said.append(self._told("figure", figure=figure, value=self.worth(decision.value)))
-            starved = np.flatnonzero(self._without_rate & (decision.value == 0)).tolist()
-            if starved:
+            starved = np.flatnonzero(parts.without_rate(decision)).tolist()
+            if starved and decision.value == 0:
                 said.append(self._told("starved", names=self.names(starved), figure=figure))
         weight = decision.problem.weights_of(self.case.num_users)[decision.served]
         if np.ptp(weight) > 0:
@@ -252,7 +246,7 @@ class _Explanation(Proofs):
 
     def _idle_users(self) -> str:
         """Who of those who count gets nothing, and by what margin the closest of them was beaten."""
-        idle = np.flatnonzero(self._without_rate)
+        idle = np.flatnonzero(parts.without_rate(self.case.decision))
         if not idle.size or self.case.problem.min_rate_bps is not None:
             return ""
         gain = self.case.estimate.gain

@@ -73,10 +73,9 @@ def speaks_of(key: str, text: str) -> bool:
 def figures_asked(text: str, report: Report, language: str) -> Said:
     """The figures of a decision that a text names; empty where it names none."""
     rows = {row[0]: row[1:] for row in report.figures(language)}
-    told = dict.fromkeys(_FIGURES[entry.key] for entry in _named(text) if entry.key in _FIGURES)
-    labels = [message(language, f"label.{name}") for name in told]
     said: list[Said] = []
-    for label in (label for label in labels if label in rows):
+    for name in dict.fromkeys(_FIGURES[entry.key] for entry in _named(text) if entry.key in _FIGURES):
+        label = message(language, f"label.{name}")
         predicted, achieved, *_ = rows[label]
         key = "term.figure" if achieved in ("–", predicted) else "term.figure_achieved"
         said.append(message(language, key, label=label, predicted=predicted, achieved=achieved))

@@ -125,12 +125,12 @@ class Steps(Teller):
             said.append(in_all._more(total, step_of(total), decision.total_power_w))
         return self.joined(*said)
 
-    def told(self, step: steps.Step, kept: steps.Reach | None = None) -> str:
-        """What a step changes, and what power would keep the value (looked for if not given), in a paragraph."""
+    def told(self, step: steps.Step) -> str:
+        """What a step changes, and what power would keep the value, in a paragraph."""
         if not (step.before.is_usable and step.after.is_usable):
             said = [self._unmet(step)]
         else:
-            kept, budget_w = kept or steps.kept_by(self.case, step), self.case.problem.budget_w(self.case.cell)
+            kept, budget_w = steps.kept_by(self.case, step), self.case.problem.budget_w(self.case.cell)
             keeping = "" if kept is None else self._reached(kept, "step.kept", before_w=budget_w)
             said = [self._changed(step), keeping, self._bound(step)]
         return self.joined(*said, self._limit(step.limit_w) if step.after.is_usable else "")
@@ -167,8 +167,7 @@ class Steps(Teller):
     def _reached(self, found: steps.Reach, key: str, *, before_w: float, step: str = "") -> str:
         told = {"figure": self.figure, "target": self.worth(found.target), "step": step}
         if np.isnan(found.power_w):
-            out = "step.out_of_reach" if step else "step.not_kept"
-            return self.say(out, **told, power=human(found.tried_w, "W"))
+            return self.say("step.out_of_reach", **told, power=human(found.tried_w, "W"))
         more = found.power_w - before_w
         way, size = self.say("step.more" if more >= 0 else "step.less"), human(abs(more), "W")
         power, share = human(found.power_w, "W"), percent(abs(more) / before_w)

@@ -13,9 +13,9 @@ import numpy as np
 
 from wirelessagent import plugins
 from wirelessagent.deciding.core.closed_form import APPROACHED
+from wirelessagent.model.arrays import BoolArray
 from wirelessagent.model.decision import Decision
-from wirelessagent.model.objective import Objective
-from wirelessagent.model.phrases import phrases
+from wirelessagent.model.phrases import Phrases
 from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.telling.catalogue import Voice, called, goal_named, listed, message
 from wirelessagent.telling.facts.case import Case, objective_of
@@ -47,6 +47,10 @@ class Teller(Voice):
         """What users are called, in a row."""
         return listed(self.language, self.case.named(users))
 
+    def place(self, first: int, last: int) -> str:
+        """Subcarriers as people count them, from 1."""
+        return self.say("part.one" if first == last else "part.several", first=first + 1, last=last + 1)
+
     def why(self, decision: Decision) -> str:
         """Why there is no allocation, or what else a decision says of itself."""
         return reason_in_words(decision, self.language)
@@ -73,10 +77,9 @@ class Teller(Voice):
 
 def name_of_figure(decision: Decision, language: str = "en") -> str:
     """What the decision's value is called, as in "lowest rate"; empty where its unit says it all."""
-    objective, weighted = decision.problem.objective, decision.problem.weights is not None
-    names = objective.figure_name if isinstance(objective, Objective) else phrases()
-    named = (names.get(language) or names.get("en") or next(iter(names.values()), ("",)))[0]
-    if named or not weighted or not isinstance(objective, Objective):
+    objective = objective_of(decision)
+    named = _first_of(objective.figure_name, language)
+    if named or decision.problem.weights is None:
         return named
     if objective.measure == "efficiency":
         return message(language, "label.weighted_energy_efficiency")
@@ -86,9 +89,13 @@ def name_of_figure(decision: Decision, language: str = "en") -> str:
 
 def goal_words(objective: str, language: str) -> str:
     """What an objective is called: in the built-in words, else by its own first phrase."""
-    own = plugins.objective(objective).phrases
-    spoken = own.get(language) or own.get("en") or next(iter(own.values()), (objective.replace("_", " "),))
-    return goal_named(objective, spoken[0], language)
+    spoken = _first_of(plugins.objective(objective).phrases, language)
+    return goal_named(objective, spoken or objective.replace("_", " "), language)
+
+
+def _first_of(phrases: Phrases, language: str) -> str:
+    """The first phrase in a language, else in English, else in any; empty where there is none."""
+    return next((said[0] for said in (phrases.get(language), phrases.get("en"), *phrases.values()) if said), "")
 
 
 def value_name(decision: Decision, language: str) -> str:
@@ -97,11 +104,6 @@ def value_name(decision: Decision, language: str) -> str:
     if named or objective.measure != "utility":
         return named or message(language, f"part.{objective.measure}")
     return message(language, "part.rate" if objective.unit == "bit/s" else "text.value")
-
-
-def place(first: int, last: int, language: str) -> str:
-    """Subcarriers as people count them, from 1."""
-    return message(language, "part.one" if first == last else "part.several", first=first + 1, last=last + 1)
 
 
 def outcome_in_words(decision: Decision, language: str) -> str:
@@ -132,11 +134,15 @@ def cannot_be_served(decision: Decision, language: str = "en") -> str:
 
 def _idle(decision: Decision) -> tuple[int, int]:
     """How many of those whose rate counts get none, and how many count; none of none where the power is to be least."""
-    objective = decision.problem.objective
-    if not isinstance(objective, Objective) or objective.measure == "power":
+    if objective_of(decision).measure == "power":
         return 0, 0
     counts = decision.problem.weights_of(decision.rate_bps.size) > 0
-    return int(np.count_nonzero(counts & (decision.rate_bps <= 0))), int(np.count_nonzero(counts))
+    return int(np.count_nonzero(without_rate(decision))), int(np.count_nonzero(counts))
+
+
+def without_rate(decision: Decision) -> BoolArray:
+    """True for users whose rate counts, who are served and have a weight, and who get none, shape (user,)."""
+    return (decision.rate_bps <= 0) & (decision.problem.weights_of(decision.rate_bps.size) > 0)
 
 
 def power_in_words(power_w: float, language: str) -> str:

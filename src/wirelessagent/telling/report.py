@@ -21,7 +21,7 @@ from wirelessagent.model.objective import Objective
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.shown import Picture, Shown, Summary
 from wirelessagent.model.units import human, percent, prefixed, probability, reliability
-from wirelessagent.telling.catalogue import Table, called, message
+from wirelessagent.telling.catalogue import Table, called, capital, message
 from wirelessagent.telling.facts.case import (
     among_served,
     in_use,
@@ -94,8 +94,7 @@ class Report(Shown):
 
         Where perfect knowledge would have decided otherwise, what it would have achieved comes last.
         """
-        known = [self.predicted, self.achieved]
-        known += [] if self.perfect is None else [predicted_metrics(self.perfect)]
+        known = [self.predicted, self.achieved, *([] if self.perfect is None else [predicted_metrics(self.perfect)])]
 
         def row(label: str, figure: Callable[[LinkMetrics], float], unit: str) -> tuple[str, ...]:
             return label, *("–" if one is None else human(figure(one), unit) for one in known)
@@ -113,7 +112,7 @@ class Report(Shown):
         figures = {"power": "power_w", "efficiency": "energy_efficiency_bit_per_j"}
         plain = figures.get(self.objective.measure, "sum_rate_bps")
         name = name_of_figure(self.decision, language) or message(language, f"label.{plain}")
-        return name[:1].upper() + name[1:] if name.isascii() else name  # a capital α reads as an A
+        return capital(name) if name.isascii() else name  # a capital α reads as an A
 
     def _decided(self, language: str) -> list[tuple[str, ...]]:
         """The value that the decision was made for, where what is expected of the true channel shows another one."""

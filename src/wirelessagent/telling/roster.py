@@ -10,7 +10,7 @@ from wirelessagent.telling.catalogue import called, lines_of
 from wirelessagent.telling.facts.accounts import PROMISE_BPS, Account, Loss, account, newcomer, share
 from wirelessagent.telling.facts.case import BAND, in_use
 from wirelessagent.telling.margins import STEP_BPS, Steps
-from wirelessagent.telling.parts import Teller, place
+from wirelessagent.telling.parts import Teller
 
 _SAME = 1e-3
 """A share of a figure that does not show in it."""
@@ -233,7 +233,7 @@ class Accounts(Teller):
         """Where a user lost, by how much, and how sure that is."""
         behind, winner = abs(loss.behind_db), self.name(loss.winner)
         key = "account.tie" if behind < _TIE_DB else "account.behind" if loss.behind_db > 0 else "account.more"
-        said = self.say(key, behind=behind, place=place(loss.first, loss.last, self.language), winner=winner)
+        said = self.say(key, behind=behind, place=self.place(loss.first, loss.last), winner=winner)
         if key != "account.behind":
             return [said]
         if np.isnan(loss.chance):

@@ -12,6 +12,7 @@ the value never falls with the budget, and is nearly straight in its logarithm, 
 from __future__ import annotations
 
 import dataclasses
+import functools
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +21,7 @@ from wirelessagent import chain
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.problem import Problem
-from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.case import Case, objective_of
 
 _NOTHING = 1e-9
 """A share of the value that is no change of it."""
@@ -79,11 +80,6 @@ class Step:
     limit_w: float = np.nan
 
     @property
-    def problem(self) -> Problem:
-        """What was solved after the step."""
-        return self.after.problem
-
-    @property
     def change(self) -> float:
         """Change of the value; NaN where either problem has no allocation."""
         return self.value_after - self.before.value
@@ -99,9 +95,8 @@ class Step:
         looser = self.step >= 0 if self.of_power else self.step <= 0
         if not looser or not self.before.is_usable:
             return self.after.value
-        objective = self.before.problem.objective
-        falls = not isinstance(objective, str) and objective.direction == "min"
-        return float((np.fmin if falls else np.fmax)(self.before.value, self.after.value))
+        better = np.fmin if objective_of(self.before).direction == "min" else np.fmax
+        return float(better(self.before.value, self.after.value))
 
     @property
     def most_change(self) -> float:
@@ -195,21 +190,19 @@ def kept_by(case: Case, step: Step) -> Reach | None:
     """What power would keep the value where it was in spite of what more is promised; None where that is no matter."""
     if step.of_power or not has_reach(case) or step.change >= -_NOTHING * abs(step.before.value):
         return None
-    found = reach(case, step.before.value, step.problem)
+    found = reach(case, step.before.value, step.after.problem)
     return None if np.isnan(found.power_w) else found
 
 
 def reach(case: Case, target: float, problem: Problem | None = None) -> Reach:
     """The power at which a case's problem, or another one on its channel, is worth ``target``."""
-    found: dict[float, float] = {}
 
+    @functools.cache
     def short(log_power: float) -> float:
-        if log_power not in found:
-            power_w = float(np.exp(log_power))
-            at_power = dataclasses.replace(problem or case.problem, max_power_w=power_w)
-            decision = case.solved(at_power, case.radiating(power_w))
-            found[log_power] = (decision.value if decision.is_usable else 0.0) / target - 1.0
-        return found[log_power]
+        power_w = float(np.exp(log_power))
+        at_power = dataclasses.replace(problem or case.problem, max_power_w=power_w)
+        decision = case.solved(at_power, case.radiating(power_w))
+        return (decision.value if decision.is_usable else 0.0) / target - 1.0
 
     from scipy.optimize import brentq  # a quarter of a second, and few ask for this
 
@@ -219,9 +212,7 @@ def reach(case: Case, target: float, problem: Problem | None = None) -> Reach:
         if high - budget > farthest:
             return Reach(target=target, power_w=np.nan, tried_w=float(np.exp(high)))
         low, high = high, high + stride
-    while short(low) >= 0.0:
-        if budget - low > farthest:
-            break
+    while short(low) >= 0.0 and budget - low <= farthest:
         low, high = low - stride, low
     root = high if short(low) >= 0.0 else float(brentq(short, low, high, xtol=_ACCURACY, rtol=_ACCURACY))
     power, most = float(np.exp(root)), case.cell.max_power_w
