@@ -29,6 +29,7 @@ from wirelessagent.language.acts import Act, Aim, Apply, Ask, AskStatus, Export,
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import called, unanswered, understood, with_users
 from wirelessagent.language.conversation.anchors import Anchored
+from wirelessagent.language.conversation.possible import spoken_of
 from wirelessagent.language.intent import OWN_CHOICE, Intent, acts_of
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Missing, Question, Recogniser
@@ -202,8 +203,9 @@ class Session:
         """The users whom the last line that named any named, unless something was changed since."""
         for turn in reversed(self._turns):
             said = Anchored.of(with_users(turn.text, names), turn.intent.language, self._site.user_names)
-            users = said.named(len(self._site.user_names))
-            if users or any(_changes_or_supposes(act) for act in turn.acts):
+            acts = [*filter(_changes_or_supposes, turn.acts)]
+            users = spoken_of(said, len(self._site.user_names), acts)
+            if users or acts:
                 return users
         return ()
 

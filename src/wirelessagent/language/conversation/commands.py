@@ -171,13 +171,14 @@ def _command_words() -> tuple[frozenset[str], re.Pattern[str], re.Pattern[str]]:
 def read_alike(line: Line) -> Intent | None:
     """What was said last of some users, said of another one: "user 6 too"; "nor 6" of what takes something away."""
     context = line.context
-    last = context.acts if context.earlier[-1:] == (context.acts,) and context.awaits != "clarification" else ()
-    said = _with_its_user(line) if context.objective is not None and last else ""
+    if context.objective is None or context.earlier[-1:] != (context.acts,) or context.awaits == "clarification":
+        return None
+    said = _with_its_user(line)
     denied = is_all("alike_denied", said) is not None
     if not denied and is_all("alike", said) is None:
         return None
     able = (LeaveOut, Drop) if denied else (LeaveOut, Drop, Limit, Scale, Serve)
-    whose = [act for act in last if isinstance(act, able) and isinstance(act.whom, Named)]
+    whose = [act for act in context.acts if isinstance(act, able) and isinstance(act.whom, Named)]
     users = line.anchored.named(len(context.user_names))
     of_one = (act for act in whose if act.whom == whose[-1].whom)
     alike = tuple(Serve(whom=Named(users)) if isinstance(act, Serve) else dataclasses.replace(act, whom=Named(users))

@@ -216,6 +216,17 @@ def users_of(acts: Iterable[Act]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(numbered(user) for whom in named for user in whom.users))
 
 
+def spoken_of(said: Anchored, most: int, acts: Sequence[Act]) -> tuple[str, ...]:
+    """The users whom a line names that makes these acts, if any, among so many at ``most``.
+
+    A number alone names nobody where something else is changed by it: "blocks of 5".
+    """
+    users = said.named(most)
+    if not acts or any(anchor.kind == "users" for anchor in said.anchors):
+        return users
+    return tuple(user for user in users if user in users_of(acts))
+
+
 def _as_limits(act: Act, figures: Mapping[Key, float]) -> Iterator[Limit]:
     """The figure that an act stated, or that it made of another."""
     if isinstance(act, Limit):

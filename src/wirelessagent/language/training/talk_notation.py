@@ -29,7 +29,7 @@ from wirelessagent.language.acts import (
 )
 from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.conversation.changes import dropped
-from wirelessagent.language.conversation.possible import Effect, effect_between, users_of
+from wirelessagent.language.conversation.possible import Effect, effect_between, spoken_of, users_of
 from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, FIGURES_OF_USERS
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.request import Request, applied, figures_of
@@ -170,8 +170,8 @@ class _Talk:
 
     def _took(self, text: str, acts: Sequence[Act], after: Request | None, *, supposes: bool) -> None:
         """Remember a line that was understood."""
-        found = Anchored.of(text, self.language, USERS).named(len(USERS))
-        changing = [act for act in acts if isinstance(act, _CHANGING)]
+        changing = any(isinstance(act, _CHANGING) for act in acts)
+        found = spoken_of(Anchored.of(text, self.language, USERS), len(USERS), acts if changing or supposes else ())
         self.spoken_of = found if found or changing or supposes else self.spoken_of
         self.named = users_of(acts) or found or self.named
         steps = sum(act.steps or 1 for act in acts if isinstance(act, Undo))
