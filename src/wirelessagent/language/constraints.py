@@ -80,7 +80,7 @@ class Allotments:
             role = self._assign(mention) if mention.role in ("named", "pronoun") else mention.role
             reading.marks.append((mention.start, mention.end, role + "+" * (len(mention.users) > 1)))
         self._one_each = dict(self._one_for_each())
-        for number in judged.weights:
+        for number in judged.numbers.weights:
             self._weigh(number)
             reading.marks.append((number.start, number.end, "weight"))
 
@@ -374,16 +374,16 @@ class _Reader:
     def __init__(self, reading: Reading, names: Sequence[str], max_power_w: float) -> None:
         self._reading, self._max_power_w = reading, max_power_w
         self._judged = Judged(reading.plain, reading.quantities, names, reading.spoken_for)
-        for number in self._judged.groups:
+        for number in self._judged.numbers.groups:
             reading.take_group(float(number.value or 0), (number.start, number.end))
-        if self._judged.groups:  # which are no figures to calculate with
+        if self._judged.numbers.groups:  # which are no figures to calculate with
             self._judged = Judged(reading.plain, reading.quantities, names, reading.spoken_for)
         self._allotments = Allotments(reading, self._judged)
 
     def take_numbers(self) -> None:
         """Numbers without a unit: users, weights, descriptions and what borrows a unit are settled."""
         reading, judged = self._reading, self._judged
-        reading.counted += judged.harmless
+        reading.counted += judged.numbers.harmless
         named = [(m.start, m.end) for m in judged.mentions if m.role == "named"]
         read = [(figure.start, figure.end) for figure in judged.figures]
         settled = [*reading.counted, *named, *read, *self._allotments.spans, *reading.spoken_for]
@@ -392,9 +392,9 @@ class _Reader:
                 continue
             reading.masked.append((figure.phrase_start, figure.phrase_end))
             reading.doubt("unit_missing", text=figure.text)
-        for number in judged.multiplied:
+        for number in judged.numbers.multiplied:
             reading.doubt("calculated", text=reading.text[number.start : number.end])
-        for start, end in judged.doubtful:
+        for start, end in judged.numbers.doubtful:
             reading.doubt("unit_missing", text=reading.text[start:end])
 
     def take_figures(self) -> None:
@@ -523,11 +523,11 @@ class _Reader:
     def take_users(self) -> None:
         """What users are given, and those who are counted, some of them, or named for nothing: each is a doubt."""
         reading, allotted = self._reading, self._allotments
-        take_counts(reading, self._judged.recounted, allotted.spans, len(self._judged.users_of_the_cell))
+        take_counts(reading, self._judged.numbers.recounted, allotted.spans, len(self._judged.users_of_the_cell))
         doubt_parts(reading, allotted.spans)
         for start, end in allotted.take_users():
             reading.doubt("named_user", text=reading.text[start:end])
         if _STEP.search(reading.plain) is not None:
             reading.steps.setdefault("power_w", 1.0)
-        reading.strangers = self._judged.strangers
+        reading.strangers = self._judged.numbers.strangers
         allotted.settle()

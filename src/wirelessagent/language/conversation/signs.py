@@ -22,8 +22,8 @@ from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.possible import RATES, Change, Effect, Possible
 from wirelessagent.language.figure_roles import answers
 from wirelessagent.language.intent import Intent, acts_of, stated
-from wirelessagent.language.judged import first_look
 from wirelessagent.language.moods import classes_in
+from wirelessagent.language.number_roles import first_look
 from wirelessagent.language.request import changed
 from wirelessagent.language.sentence import BUILT_IN
 from wirelessagent.language.text import hashed, overlaps

@@ -21,8 +21,8 @@ from typing import Any
 from wirelessagent.language.conversation.possible import POWERS, RATES
 from wirelessagent.language.figure_roles import LABELS
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
-from wirelessagent.language.judged import BORROWING, Look, figures_of
 from wirelessagent.language.mentions import Mention
+from wirelessagent.language.number_roles import BORROWING, Look, figures_of
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.training.examples import lines_of, spoken

@@ -31,8 +31,8 @@ from wirelessagent.language.as_meant import as_meant
 from wirelessagent.language.conversation.possible import RATES
 from wirelessagent.language.figure_roles import BUCKETS, LABELS, ROLES_FILE, View, hashed
 from wirelessagent.language.intent import EVERYBODY
-from wirelessagent.language.judged import BORROWING, Look, first_look, second_look
 from wirelessagent.language.mentions import Mention, mentions
+from wirelessagent.language.number_roles import BORROWING, Look, first_look, second_look
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import measures, parse_quantities
 from wirelessagent.language.shares import worked_out
