@@ -44,13 +44,35 @@ def test_what_was_said_of_the_cell_is_said_of_no_user(said: str) -> None:
     assert (held, turns[-1].stage) == ({"max_power_w": 10.0}, "asked")
 
 
+@pytest.mark.parametrize("said", ["user 3 too?", "3 as well?", "not user 3"])
+def test_a_question_takes_nobody_out(said: str) -> None:
+    assert talked_into("highest total rate", "leave user 2 out", said)[0] == {"leave_out": ("2",)}
+
+
+def test_one_user_stands_for_another() -> None:
+    assert talked_into("highest total rate, user 2 out", "not user 2 but user 3")[0] == {"leave_out": ("3",)}
+
+
+def test_an_answer_keeps_what_the_question_holds() -> None:
+    _, turns = talked_into("highest total rate", "one of the users gets 1 Mbit/s", "user 3, and 8 W")
+    assert [turn.stage for turn in turns] == ["applied", "asked", "asked"]
+
+
 @pytest.mark.parametrize("said", ["user 3 neither", "3 not either"])
 def test_a_promise_is_not_said_of_another_user_by_neither(said: str) -> None:
     assert talked_into("highest total rate", "user 2 at least 1 Mbit/s", said)[0] == {"min_rate_bps": {"2": 1e6}}
 
 
 @pytest.mark.parametrize(
-    "said", ["don't leave user 3 out", "don't throw user 3 out", "never exclude user 3", "3号不要停", "别把3号去掉"]
+    "said",
+    [
+        "don't leave user 3 out",
+        "don't cut user 3 off",
+        "don't throw user 3 out",
+        "never exclude user 3",
+        "3号不要停",
+        "别把3号去掉",
+    ],
 )
 def test_whoever_is_not_to_go_stays(said: str) -> None:
     assert talked_into(LEAST_POWER, said)[0] == {"min_rate_bps": 2e5}

@@ -81,6 +81,16 @@ ODD, EVEN = ("1", "3", "5", "7"), ("2", "4", "6", "8")
         ("maximale Summenrate mit 90 Prozent vom Leistungsbudget", {"max_power_w": 18.0}),
         ("most bits per joule, circuit power 7.5 W, no more than 80 % of the power budget",
          {"circuit_power_w": 7.5, "max_power_w": 16.0}),
+        ("max rate, outage 5 % total power 10 W", {"max_power_w": 10.0, "outage_probability": 0.05}),
+        ("中断概率2%功率最小,每人500kbps", {"min_rate_bps": 5e5, "outage_probability": 0.02}),
+        ("everyone at least 500 kbit/s, but not user 3, but user 4 gets 1 Mbit/s; least power",
+         {"min_rate_bps": {"all": 5e5, "4": 1e6, "3": 0.0}}),
+        ("max rate. Everyone 1 Mbit/s, not user 3, but 7.5 W at most",
+         {"max_power_w": 7.5, "min_rate_bps": {"all": 1e6, "3": 0.0}}),
+        ("Leistung minimal, gerade, wo alle mindestens 1 Mbit/s haben", {"min_rate_bps": 1e6}),
+        ("leave out the last two users 7 and 8, max rate", {"leave_out": ("7", "8")}),
+        ("die ersten drei Nutzer 1, 2 und 3 mindestens 1 Mbit/s, Summenrate maximal",
+         {"min_rate_bps": dict.fromkeys("123", 1e6)}),
         ("100 kbit/s at least for users 1 to 3, 200 for users 4 to 6, least power",
          {"min_rate_bps": {**dict.fromkeys("123", 1e5), **dict.fromkeys("456", 2e5)}}),
     ],
@@ -95,6 +105,9 @@ def test_each_user_has_the_figure_that_is_said_of_them(text: str, values: dict[s
     "text",
     [
         "max sum rate, serve only users 1 and 2, the others at 1 Mbit/s", "max sum rate of 5 Mbit/s for users 1 and 2",
+        "8个用户中7个至少1 Mbps,发射功率最小", "max sum rate for 8 users, 3 at least 1 Mbit/s",
+        "max sum rate for eight users, three left out", "everybody at least 1 Mbit/s, user 5 no ceiling, max rate",
+        "max rate, users 1 and 2 at least 1 Mbit/s, no subcarriers for user 6",
     ],
 )  # fmt: skip
 def test_what_may_be_of_others_is_asked(text: str) -> None:

@@ -13,7 +13,7 @@ import itertools
 import re
 from collections.abc import Iterator, Mapping
 
-from wirelessagent.language.mentions import ANY_NOUN, GIVEN_TO, JOINT_WORDS, MOST_USERS, WORD_NUMBER, named
+from wirelessagent.language.mentions import ANY_NOUN, GIVEN_TO, JOINT_WORDS, MOST_USERS, WORD_NUMBER, mentions, named
 from wirelessagent.language.numerals import NUMBERED, factors, numbers
 from wirelessagent.language.shares import worked_out
 from wirelessagent.language.text import AND, WORD, clause_start, normalise, overlaps, replaced, written_over
@@ -85,7 +85,7 @@ _NOT_AHEAD = deferred(
 )
 _BUT_BEHIND = deferred(
     rf"(?i)\s*号?(?P<but>{either('figures', 'one', 'but_who')})\s*(?:{GIVEN_TO}\s*)*(?:{ANY_NOUN}\s*)?"
-    rf"(?:[0-9]+|{WORD_NUMBER}\b)"
+    rf"(?:[0-9]+(?![0-9.,]*[0-9]|\s*%)|{WORD_NUMBER}\b)(?!\s*\w*(?:carrier|träger|portadora|porteuse))"
 )
 _SURELY_A_RATE, _DENIES = 20, ("no", "non", "不", "不是")
 """From where on a whole number without a unit is nobody's, and words that deny what follows as often as they take back
@@ -149,10 +149,16 @@ def _not_meant(plain: str) -> Iterator[tuple[int, int, str]]:
 
 
 def _not_who(plain: str) -> Iterator[tuple[int, int, str]]:
-    """Users whom others are said to stand for: "not user 3 but user 2", "不是用户5，是用户6"."""
+    """Users whom others are said to stand for, before more is said: "not user 3 but user 2 …", "不是用户5，是用户6…".
+
+    Where everybody was named before, it is an exception.
+    """
     for each in named(plain):
         ahead, behind = _NOT_AHEAD.search(plain, 0, each.start), _BUT_BEHIND.match(plain, each.end)
-        if ahead is not None and behind is not None and unit_at(plain, behind.end()) is None:
+        if ahead is None or behind is None or unit_at(plain, behind.end()) is not None:
+            continue
+        goes_on = any(map(str.isalpha, plain[behind.end() :]))
+        if goes_on and not any(m.role == "everybody" and m.end <= each.start for m in mentions(plain)):
             yield ahead.start("denies"), behind.end("but"), ""
 
 

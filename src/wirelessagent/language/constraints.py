@@ -25,6 +25,7 @@ from wirelessagent.language.word_tables import deferred, either
 _SURE_OF_A_ROLE, _SURE_OF_SILENCE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.9, 0.5, 0.45
 _SAID = 0.4
 _RATES = ("min_rate_bps", "max_rate_bps")
+_OF_FLOORS = frozenset({"min_rate_bps"})
 _LEAVING = Phrases(either("figures", "users", "leaving"))
 _ALIKE = either("figures", "users", "alike")
 _GIVEN_ALIKE = Beside(
@@ -76,6 +77,7 @@ class Allotments:
         self.spans: list[tuple[int, int]] = []
         self._roles: dict[Mention, str] = {}
         self._likely: dict[Mention, str] = {}
+        self._lifted: dict[Mention, frozenset[str]] = {}
         for mention in self._found:
             role = self._assign(mention) if mention.role in ("named", "pronoun") else mention.role
             reading.marks.append((mention.start, mention.end, role + "+" * (len(mention.users) > 1)))
@@ -115,6 +117,10 @@ class Allotments:
         if EVERYBODY in caps or not (floors or caps):
             return
         for mention in [each for each, role in self._roles.items() if role == "exempt"]:
+            lifts = self._lifted.get(mention, frozenset())
+            unsaid = not lifts if EVERYBODY not in floors else lifts not in (frozenset(), _OF_FLOORS)
+            if unsaid:  # which limit, if any, does not hold
+                continue
             if not any(user in (floors or caps) for user in mention.users):
                 self._used.add(mention)
                 self._roles[mention] = "given"
@@ -159,7 +165,8 @@ class Allotments:
     def _likeliest(self, mention: Mention) -> str:
         """What somebody is there for; without certainty it is unclear."""
         chances, said = self._judged.user(mention), self._judged.said_of(mention)
-        if said["exempt"] > _SURE_OF_A_ROLE or self._goes_without(mention):
+        self._lifted[mention] = self._goes_without(mention)
+        if said["exempt"] > _SURE_OF_A_ROLE or self._lifted[mention]:
             return "exempt"  # whatever rate stands beside it is that of all others
         role = self._likely[mention] = max(chances, key=lambda each: chances[each])
         if role == "users" and self._others_have_a_rate(mention):  # who are served then, too
@@ -170,10 +177,11 @@ class Allotments:
             return role
         return "unclear" if mention.role == "named" and chances["given"] < _SURE_OF_NO_ROLE else "given"
 
-    def _goes_without(self, mention: Mention) -> bool:
-        """Whether all that is said of somebody lifts a limit: "user 6 no guarantee", "no cap on user 3"."""
+    def _goes_without(self, mention: Mention) -> frozenset[str]:
+        """The limits that are lifted where all that is said of somebody lifts them: "user 6 no guarantee"."""
         start, end = self._clause_of(mention)
-        return not self._has_figures(start, end) and bool(lifted_in(self._plain[start:end]))
+        lifted = frozenset[str](() if self._has_figures(start, end) else lifted_in(self._plain[start:end]))
+        return lifted if lifted <= {*_RATES, "all"} else frozenset()
 
     def _others_have_a_rate(self, mention: Mention) -> bool:
         """Whether the others, named behind somebody, have a rate in their clause: "除了用户4和5，其他人至少700k"."""

@@ -13,7 +13,7 @@ import functools
 import itertools
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.number_words import cardinals, listed, tens_and_ones, whole
@@ -151,12 +151,18 @@ def mentions(plain: str, names: Sequence[str] = (), taken: Sequence[tuple[int, i
     """
     found: list[Mention] = []
     spoken_of = _spoken_of(plain)
-    listed = [(each.start, each.end) for each in spoken_of if len(each.users) > 1]  # "odd-numbered users 1, 3 and 5"
-    placed = (each for each in _by_place(plain, len(names)) if not overlaps((each.start, each.end), listed))
-    for mention in [*_own_names(plain, names), *placed, *spoken_of]:
+    for mention in [*_own_names(plain, names), *_placed(plain, len(names), spoken_of), *spoken_of]:
         if not overlaps((mention.start, mention.end), [*taken, *((other.start, other.end) for other in found)]):
             found.append(mention)
     return merged(plain, sorted(found, key=lambda mention: mention.start))
+
+
+def _placed(plain: str, count: int, spoken_of: Sequence[Mention]) -> Iterator[Mention]:
+    """Users by their place, with the list of the same behind: "the odd-numbered users 1, 3, 5 and 7"."""
+    for each in _by_place(plain, count):
+        lists = (other for other in spoken_of if {*other.users} == {*each.users} and each.start < other.end)
+        near = (other for other in lists if other.start <= each.end or not plain[each.end : other.start].strip())
+        yield replace(each, end=max((other.end for other in near), default=each.end))
 
 
 def _own_names(plain: str, names: Sequence[str]) -> Iterator[Mention]:

@@ -22,6 +22,7 @@ from typing import NamedTuple
 
 from wirelessagent.language.intent import Constraint
 from wirelessagent.language.mentions import BY_PLACE, PLACED
+from wirelessagent.language.moods import named_in
 from wirelessagent.language.number_words import cardinals, german_value, plain_word
 from wirelessagent.language.numerals import Number, factors, numbers
 from wirelessagent.language.quantities import Quantity
@@ -192,6 +193,9 @@ _OTHERS_HALVED = Phrases(
 _LIMITED, _TO, _FULL = ("|".join(words_of("figures", "shared", name)) for name in ("limited", "to", "full"))
 _MOST = rf"(?:(?:max|máx)\w*\.?|{_LIMITED}|=|<=|≤|:)?\s*(?:(?:max|{_TO})\.?\s*)?"
 _BUDGET = "|".join(words_of("figures", "shared", "power", "budgets"))
+_OF_THE_BUDGET = deferred(
+    rf"(?i)\s*(?:{_FULL})(?:\s++|{_FULL})*+(?:{_BUDGET})\b|的(?:发射|总)?(?:功率|预算)(?!最|放大)"
+)
 _SHARED = Beside(
     deferred(
         rf"(?i)(?:\b(?:p_?max|(?:max\w*\.?\s+)?(?:{POWER_NOUNS}))\s*{_MOST}|功率(?:用|压|降|限制|上限)?[到在为是]?)$"
@@ -201,8 +205,10 @@ _SHARED = Beside(
 
 
 def shares_power(plain: str, figure: Quantity) -> bool:
-    """Whether a share is said to be one of the power: "90 % of the power budget"."""
-    return _SHARED.behind.match(plain, figure.phrase_end) is not None
+    """Whether a share is said to be one of the power: "90 % of the power budget", not "outage 5 %, power 10 W"."""
+    ahead = plain[clause_start(plain, figure.phrase_start) : figure.phrase_start]
+    promises = any(name == "outage_probability" for _, name in named_in(ahead))
+    return not promises and _OF_THE_BUDGET.match(plain, figure.phrase_end) is not None
 
 
 _TOGETHER: dict[str, int] = {
@@ -333,14 +339,16 @@ def take_counts(reading: Reading, recounted: Sequence[Span], allotted: Sequence[
     are ``of_all``.
     """
     taken = [*((figure.start, figure.end) for figure in reading.quantities), *reading.spoken_for, *allotted]
+    measured = [(figure.start, figure.end) for figure in reading.quantities if figure.kind not in ("bare", "other")]
     for match in COUNTED_USERS.finditer(reading.plain):
         described = any(match.start() <= start < match.end() for start, _ in recounted)
         if described or any(start <= match.start() < end for start, end in taken):
             continue
         words = reading.text[slice(*match.span())]
         reading.counted.append(match.span())
-        all_of_them = any(match.start() <= n.start < match.end() and n.value == of_all for n in numbers(reading.plain))
-        if all_of_them or _describes_all(reading, *match.span()):
+        counts = [n for n in numbers(reading.plain) if not overlaps((n.start, n.end), measured)]
+        alone = len(counts) == 1 and match.start() <= counts[0].start < match.end()  # not "3 of 8 users"
+        if (alone and counts[0].value == of_all) or _describes_all(reading, *match.span()):
             reading.not_used.append(words)
         else:
             reading.doubt("not_understood" if CARRIERS.search(words) else "some_users", text=words)

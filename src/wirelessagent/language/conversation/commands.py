@@ -173,7 +173,7 @@ def read_alike(line: Line) -> Intent | None:
     context = line.context
     if context.objective is None or context.earlier[-1:] != (context.acts,) or context.awaits == "clarification":
         return None
-    said = _with_its_user(line)
+    said = "" if line.is_asked else _with_its_user(line)
     denied = is_all("alike_denied", said) is not None
     if not denied and is_all("alike", said) is None:
         return None

@@ -18,7 +18,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.acts import Act, Aim, Drop, LeaveOut, Limit, Suppose, Undo
+from wirelessagent.language.acts import Act, Aim, Drop, LeaveOut, Limit, Named, Suppose, Undo
 from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.conversation.anchors import Anchor, Anchored
 from wirelessagent.language.conversation.answers import speaks_of_applying
@@ -212,16 +212,16 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
         return intent, False  # it shows only later, such as a promise to a user who is left out
     found = weigh(Signs(line, possible, read, line.voice.language))
     heard: Said = (read.supposes and bool(read.effect), read.effect or frozenset())
-    if any(hasattr(act, "whom") for act in found.acts) and stranger(line.text, context):
+    if any(isinstance(getattr(act, "whom", None), Named) for act in found.acts) and stranger(line.text, context):
         return intent, False  # who is that?
     share, acts = found.shares.get(heard, 0.0), bool(read.effect) and not read.supposes
     request = intent.guess or intent
     names_its_aim = request.kind == "allocate" and "objective" in request.evidence
     if not found.acts and names_its_aim and acts and share >= NAMED:
         return intent, False
-    denials = _denials(line)
+    denials = _denials(line, read_so=found.said == heard)
     denied = _denies(possible.line, found, denials)
-    keeps = _keeps(line, read, found, denied=denied)
+    keeps = _keeps(line, found, denied=denied)
     if not found.acts or keeps or _uses_what_is_denied(possible.line, found, denials):
         doubted = asking_whether(intent, line.voice) if share > HEARD else line.answer.ask("what_changes", 1.0)
         return (doubted if acts else intent), False
@@ -256,12 +256,12 @@ def _takes_away(acts: Iterable[Act]) -> bool:
     return any(isinstance(act, Drop | LeaveOut | Undo) for act in acts)
 
 
-def _keeps(line: Line, read: Read, found: Weighed, *, denied: bool) -> bool:
+def _keeps(line: Line, found: Weighed, *, denied: bool) -> bool:
     """Whether a line that is taken for one that takes something away says that it stays.
 
     "User 2's minimum stays", "don't drop it", "don't cut user 5 off".
     """
-    loses_service = any(isinstance(act, LeaveOut) for act in found.acts) and not read.effect
+    loses_service = any(isinstance(act, LeaveOut) for act in found.acts)
     stays = is_all("kept", line.said) or is_denied(line.sentence.plain) or (denied and loses_service)
     return bool(stays) and _takes_away(found.acts)
 
@@ -286,18 +286,22 @@ def _uses_what_is_denied(anchored: Anchored, found: Weighed, denials: Sequence[S
     return any(anchored.plain[end : figure.start].isspace() for _, end in denials for figure in figures)
 
 
-def _denials(line: Line) -> list[Span]:
-    """Where a line denies something; what its reader takes for a part of what it orders does not: "without user 5"."""
+def _denials(line: Line, *, read_so: bool) -> list[Span]:
+    """Where a line denies something.
+
+    Where it means what was read of it, a word that is a part of what it orders denies nothing: "without user 5".
+    """
+    masked = line.sentence.reading.masked if read_so else ()
     denied = (span for name, span in classes_in(line.anchored.plain) if name.partition(":")[0] in _DENYING)
-    return [span for span in denied if not overlaps(span, line.sentence.reading.masked)]
+    return [span for span in denied if not overlaps(span, masked)]
 
 
 def _stands(line: Line, intent: Intent) -> bool:
     """Whether what is read of a line is not weighed.
 
     That is a line of closed words, a command, what names a method, a question of a certain thing, what a language model
-    read, an answer to a question about users, a figure that can't be or that no limit holds, and words on applying a
-    plan that waits ("apply it at 6 pm").
+    read, an answer to a question that holds something, a figure that can't be or that no limit holds, and words on
+    applying a plan that waits ("apply it at 6 pm").
     """
     context, another = line.context, intent.recogniser not in (OFFLINE, NAME)
     about_the_plan = context.awaits == "confirmation" and speaks_of_applying(line.text)
@@ -308,8 +312,10 @@ def _stands(line: Line, intent: Intent) -> bool:
         certain = missing or intent.topic not in ("other", "what_if", "concept", "capabilities")
         return intent.recogniser == NAME or certain
     if intent.kind == "clarify":
-        of_whom = context.awaits == "clarification" and bool(context.question.users) and not line.figures
-        return of_whom or (intent.asks in _CERTAIN and not _is_taken_off(line))
+        question = context.question
+        answers = context.awaits == "clarification" and question.guess is None
+        answers &= bool(question.pending or (question.users and not line.figures))
+        return answers or (intent.asks in _CERTAIN and not _is_taken_off(line))
     answers_nothing = intent.topic in ("confirm", "reject") and context.awaits == "nothing"
     commands = intent.kind == "command" and intent.topic != "undo" and not answers_nothing and intent.confidence > SURE
     return intent.recogniser == NAME or commands
