@@ -221,7 +221,7 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
         return intent, False
     denials = _denials(line, read_so=found.said == heard)
     denied = _denies(possible.line, found, denials)
-    keeps = _keeps(line, found, denied=denied)
+    keeps = _keeps(line, read, found, denied=denied)
     if not found.acts or keeps or _uses_what_is_denied(possible.line, found, denials):
         doubted = asking_whether(intent, line.voice) if share > HEARD else line.answer.ask("what_changes", 1.0)
         return (doubted if acts else intent), False
@@ -256,12 +256,13 @@ def _takes_away(acts: Iterable[Act]) -> bool:
     return any(isinstance(act, Drop | LeaveOut | Undo) for act in acts)
 
 
-def _keeps(line: Line, found: Weighed, *, denied: bool) -> bool:
+def _keeps(line: Line, read: Read, found: Weighed, *, denied: bool) -> bool:
     """Whether a line that is taken for one that takes something away says that it stays.
 
     "User 2's minimum stays", "don't drop it", "don't cut user 5 off".
     """
     loses_service = any(isinstance(act, LeaveOut) for act in found.acts)
+    loses_service &= not read.effect or not line.sentence.chances.is_order  # "don't serve user 5" is clear
     stays = is_all("kept", line.said) or is_denied(line.sentence.plain) or (denied and loses_service)
     return bool(stays) and _takes_away(found.acts)
 
