@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from wirelessagent.language.offline import recognise
 from wirelessagent.language.training.examples import spoken
 from wirelessagent.language.vocabulary import language_in_a_talk, language_of, languages_of
 
@@ -53,3 +54,16 @@ def test_what_people_write_is_hardly_ever_taken_for_another_language() -> None:
 ])  # fmt: skip
 def test_a_word_that_tells_little_is_in_the_language_of_its_talk(text: str, before: str, language: str) -> None:
     assert language_in_a_talk(text, before) == language
+
+
+@pytest.mark.parametrize(
+    ("text", "aim", "limits"),
+    [
+        ("讓最弱的用戶速率最高,每個子載波最多0.6瓦。", "max_min_rate", {"subcarrier_max_power_w": 0.6}),
+        ("發射功率越低越好,每個人至少500 kbit/s。", "min_power", {"min_rate_bps": 5e5}),
+        ("比例公平分配,用戶1和用戶2權重2倍。", "proportional_fairness", {"weights": {"1": 2.0, "2": 2.0}}),
+    ],
+)
+def test_traditional_characters_are_read_as_simplified_ones(text: str, aim: str, limits: dict[str, object]) -> None:
+    intent = recognise(text)
+    assert (intent.objective, dict(intent.constraints)) == (aim, limits)

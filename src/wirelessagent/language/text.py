@@ -12,12 +12,16 @@ import sys
 import unicodedata
 import zlib
 from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
 from typing import TypeAlias
 
 from wirelessagent.language.word_tables import any_word, deferred
 
+_SIMPLIFIED = Path(__file__).with_name("traditional.txt").read_text(encoding="utf-8").split()
+"""Traditional characters, each with the simplified one that all Chinese words here are written in."""
 _TABLE = str.maketrans(
     {
+        **{pair[0]: pair[1] for pair in _SIMPLIFIED},
         # Full-width ASCII, but for the comma and the semicolon: they never stand inside a number.
         **{chr(code): chr(code - 0xFEE0) for code in range(0xFF01, 0xFF5F) if code not in (0xFF0C, 0xFF1B)},
         **dict.fromkeys("\u3000\u00a0\u2009\u202f\t\r", " "),
@@ -45,10 +49,12 @@ _CUT = deferred(CLAUSE_END)
 
 
 def normalise(text: str) -> str:
-    """The text with full-width forms, odd spaces, minus signs and apostrophes made plain; same length.
+    """The text with full-width forms, odd spaces, minus signs, apostrophes and traditional characters made plain.
 
-    >>> normalise("\uff11\uff10\u00a0\u00b5W")
-    '10 μW'
+    It is of the same length.
+
+    >>> normalise("\uff11\uff10\u00a0\u00b5W"), normalise("用戶3")
+    ('10 μW', '用户3')
     """
     return text.translate(_TABLE)
 
