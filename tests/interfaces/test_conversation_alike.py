@@ -28,6 +28,9 @@ LEAST_POWER = "least power, 200 kbit/s for everybody"
         (("mínima potencia, 200 kbit/s para todos", "sin el usuario 2", "y al tres también"),
          {"min_rate_bps": 2e5, "leave_out": ("2", "3")}),
         (("功率最低，每人200k", "2号不服务", "3号也一样"), {"min_rate_bps": 2e5, "leave_out": ("2", "3")}),
+        ((LEAST_POWER + ", users 2 and 3 not served", "let 2 back in", "3 as well"), {"min_rate_bps": 2e5}),
+        (("mínima potencia, 200 kbit/s para todos", "no sirvas al usuario 2", "tampoco al 3"),
+         {"min_rate_bps": 2e5, "leave_out": ("2", "3")}),
         (("proportional fair", "user 2 counts double", "3 likewise"), {"weights": {"2": 2.0, "3": 2.0}}),
         (("highest total rate", "serve only user 2", "user 3 too"), {"users": ("2", "3")}),
         (("proportional fairness, 10 W, leave out user 2", "and three as well"),
@@ -85,6 +88,8 @@ def test_whoever_is_not_to_go_stays(said: str) -> None:
         ("débit total maximal, 300 kbit/s pour tous", "reviens à la toute première version"),
         ("höchste Gesamtrate, 300 kbit/s für alle", "zurück zur allerersten Version"),
         ("máxima tasa total, 300 kbit/s para todos", "vuelve a la primera versión"),
+        ("总速率最大，每人300k", "恢复成第一个命令"),
+        ("top sum rate, 300 kbit/s for everybody", "the first order again"),
     ],
 )
 def test_the_first_version_comes_back(first: str, back: str) -> None:

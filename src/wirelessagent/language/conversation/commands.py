@@ -178,6 +178,8 @@ def read_alike(line: Line) -> Intent | None:
     if not denied and is_all("alike", said) is None:
         return None
     able = (LeaveOut, Drop) if denied else (LeaveOut, Drop, Limit, Scale, Serve)
+    if any(isinstance(act, Drop) and not isinstance(act.whom, Named) for act in context.acts):
+        return None  # "user 5 back in" says of the others, too, who goes on to be left out
     whose = [act for act in context.acts if isinstance(act, able) and isinstance(act.whom, Named)]
     users = line.anchored.named(len(context.user_names))
     of_one = (act for act in whose if act.whom == whose[-1].whom)
