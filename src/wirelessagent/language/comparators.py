@@ -91,7 +91,9 @@ def speaks_of(plain: str) -> frozenset[str]:
 
 
 _POWER_RE, _RATE_RE = (deferred("(?i)" + _any_of(name)) for name in ("power", "rate"))
-_WISH_WITH = deferred(rf"{_RATE_RE.pattern}\s+(?:with|con|avec|mit|bei)\b")
+WITH = r"(?:with|con|avec|mit|bei)\b"
+"""Words behind which the noun ahead is one of a wish: "max rate with 1 Mbit/s"."""
+_WISH_WITH = deferred(rf"{_RATE_RE.pattern}\s+{WITH}")
 _CLAUSE = deferred(CLAUSE_END)
 
 

@@ -12,6 +12,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from wirelessagent.language.comparators import WITH
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.mentions import ARTICLES, WITHOUT, Mention, Role
@@ -169,7 +170,7 @@ class Allotments:
         if said["exempt"] > _SURE_OF_A_ROLE or self._lifted[mention]:
             return "exempt"  # whatever rate stands beside it is that of all others
         role = self._likely[mention] = max(chances, key=lambda each: chances[each])
-        if role == "users" and self._others_have_a_rate(mention):  # who are served then, too
+        if role == "users" and self._others_have_a_figure(mention):  # who are served then, too
             return "exempt" if WITHOUT.search(self._plain[slice(*self._clause_of(mention))]) else "unclear"
         sure = _SURE_OF_SILENCE if role in _SILENT else _SURE_OF_A_ROLE  # nobody is to be dropped unheard
         unsaid = role == "leave_out" and _LEAVING.search(self._plain) is None  # "user 3 has priority"
@@ -183,8 +184,8 @@ class Allotments:
         lifted = frozenset[str](() if self._has_figures(start, end) else lifted_in(self._plain[start:end]))
         return lifted if lifted <= {*_RATES, "all"} else frozenset()
 
-    def _others_have_a_rate(self, mention: Mention) -> bool:
-        """Whether the others, named behind somebody, have a rate in their clause: "除了用户4和5，其他人至少700k"."""
+    def _others_have_a_figure(self, mention: Mention) -> bool:
+        """Whether the others, named behind somebody, have a figure in their clause: "除了用户4和5，其他人至少700k"."""
         others = (each for each in self._found if each.role == "others" and each.start >= mention.end)
         return any(self._has_figures(*self._clause_of(each)) for each in others)
 
@@ -318,7 +319,6 @@ _SET_TO = deferred(  # what sets a limit is no wish for the highest rate or the 
     rf"(?i)(?:{either('figures', 'bounds', 'set_to')})\s*$"
 )
 _NOUNS = "|".join(either("figures", "bounds", name) for name in ("between", "rate", "power"))
-_WITH = r"\b(?:with|con|avec|mit|bei)\b"
 _FOR = deferred(r"(?i)\s*(?:\b(?:for|to|für|para|pour|à)\b|给)\s*(?:the\s+|l'\s?|el\s+|los\s+|les\s+)?")
 _TAKES = either("figures", "users", "takes")
 _GETS = deferred(rf"(?i)\s*(?:{_TAKES})\s*(?:(?:only|nur|solo|seulement)\s+)?")
@@ -352,7 +352,7 @@ def _said_of(name: str) -> Beside:
     """Words of a list beside a figure."""
     words = either("figures", "bounds", name)
     return Beside(
-        deferred(rf"(?i)(?:{words})(?:[\s:=]*(?!{_WITH})(?:{_NOUNS}))*[\s:=]*$"),
+        deferred(rf"(?i)(?:{words})(?:[\s:=]*(?!\b{WITH})(?:{_NOUNS}))*[\s:=]*$"),
         deferred(rf"(?i)\s*(?:(?:each|apiece|per \w+)\s+)?(?:{words})"),
     )
 

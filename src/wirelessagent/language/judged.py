@@ -52,8 +52,8 @@ class Judged:
     def __init__(self, plain: str, quantities: Sequence[Quantity], names: Sequence[str], taken: Sequence[Span]) -> None:
         self.users_of_the_cell = [numbered(name) for name in names]
         self.numbers = numbers = Numbers(plain, quantities, names, taken)
-        self._look, self.view = numbers.look, numbers.view
-        look = numbers.look
+        self._look = look = numbers.look
+        self.view = numbers.view
         self.mentions = look.mentions
         self.figures = sorted([*look.figures, *look.unread], key=lambda figure: figure.start)
         rates = [figure for figure in look.figures if figure.kind == "rate"]

@@ -96,11 +96,12 @@ def _come_to(plain: str) -> Iterator[tuple[int, int, str]]:
     for share in sorted(_shares(plain), key=lambda each: each.start):
         ahead = [figure for figure in figures if figure.end <= share.start]
         behind = [figure for figure in figures if figure.start >= share.end]
-        powers = [figure for figure in ahead if figure.kind == "power" and not _is_of_a_part(plain, figure)]
         of_power, power = _OF_POWER.match(plain, share.end), _OF_POWER_AHEAD.search(plain, 0, share.start)
-        if powers and (of_power or power):  # "each subcarrier at most 2 % of the total power"
+        budgets = (each for each in reversed(ahead) if each.kind == "power" and not _is_of_a_part(plain, each))
+        budget = next(budgets, None) if of_power or power else None
+        if budget is not None:  # "each subcarrier at most 2 % of the total power"
             start, end = power.start() if power else share.start, of_power.end() if of_power else share.end
-            yield start, end, _written(powers[-1], share.value)
+            yield start, end, _written(budget, share.value)
             continue
         base = ahead[-1] if ahead and _AGAIN.match(plain, share.end) is None else None
         if _counts(plain, share.start):  # "counts 50 % more"

@@ -15,7 +15,7 @@ from wirelessagent.language.moods import named_in
 from wirelessagent.language.numerals import Number, and_part, factors, numbers
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.request import numbered
-from wirelessagent.language.text import WORD, Span, is_chinese, normalise, overlaps, unaccented
+from wirelessagent.language.text import WORD, Span, is_chinese, lowered, normalise, overlaps, unaccented
 from wirelessagent.language.word_tables import deferred, table
 
 AnchorKind: TypeAlias = Literal[
@@ -198,8 +198,8 @@ def _anchors(text: str, plain: str, language: str, names: Sequence[str]) -> Iter
     shares, pattern = _shares(language)
     found = [(share.start(), share.end(), shares[share[0]]) for share in pattern.finditer(low)]
     found += [(each.start, each.end, float(each.value)) for each in factors(low) if each.value is not None]
-    small = plain.lower() if len(plain.lower()) == len(plain) else low  # "fünf" has its accent
-    counted = [_with_its_part(low, each) for each in numbers(small, language) if each.value is not None]
+    accented = numbers(lowered(plain), language)  # "fünf" has its accent
+    counted = [_with_its_part(low, each) for each in accented if each.value is not None]
     for start, end, value in found:
         part = any(first < start and end <= last and number >= 1 for first, last, number in counted)
         if not part and not overlaps((start, end), taken):  # "two and a half"

@@ -192,7 +192,7 @@ def _with_its_user(line: Line) -> str:
     """What a line says, with a mark in the place of those whom it names first, by a number alone or by more."""
     anchors = [each for each in line.anchored.anchors if each.kind in ("users", "number")]
     spans = [(each.start, each.end, "@") for each in anchors[:1]]
-    return replaced(line.anchored.plain, spans).lower().rstrip("?.。! ").strip()
+    return lowered(replaced(line.anchored.plain, spans)).rstrip("?.。! ").strip()
 
 
 def read_method(line: Line) -> Intent | None:

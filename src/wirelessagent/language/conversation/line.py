@@ -120,7 +120,7 @@ class Line:
     def is_asked(self) -> bool:
         return _ASKED.search(self.text) is not None
 
-    @property
+    @functools.cached_property
     def anchored(self) -> Anchored:
         """The line as its figures and its users with the words between."""
         return Anchored.of(self.text, self.voice.language, self.context.user_names)
