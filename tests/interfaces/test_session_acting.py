@@ -62,6 +62,10 @@ class Moody(wa.BaseStation):
                 return replace(outcome, owner=outcome.owner[None], power_w=outcome.power_w[None])
             case "words":
                 return cast(wa.Outcome, "done")
+            case "figure in words":
+                assert outcome.achieved is not None
+                much = cast(float, "much")
+                return replace(outcome, achieved=replace(outcome.achieved, sum_rate_bps=much))
             case "exit":
                 raise SystemExit(3)
             case "colour":
@@ -124,6 +128,7 @@ def applied(run: Run) -> Run:
         ("lists", "The base station moody reports something that is no allocation."),
         ("square", "reports something that is no allocation."),
         ("words", "reports something that is no allocation."),
+        ("figure in words", "reports something that is no allocation."),
         ("exit", "The base station moody failed: 3."),
         ("colour", "The base station moody failed: link down."),
     ],
@@ -140,7 +145,7 @@ def test_what_is_not_as_decided_or_promised_is_taken_back(mood: str, told: str) 
     assert turns[1].restored is not None
     assert np.array_equal(turns[1].restored.power_w, first.decision.power_w)
     assert [decision.total_power_w for decision in station.applied] == pytest.approx([10, 5, 10])
-    assert (bad.outcome is None) == (mood in ("raise", "lists", "square", "words", "exit", "colour"))
+    assert (bad.outcome is None) == (mood in ("raise", "lists", "square", "words", "figure in words", "exit", "colour"))
     assert session.state.on_air is first
     assert session.request == Request(objective="max_rate", constraints={"max_power_w": 5.0})
     assert "In effect: 10 W" in turns[2].reply
@@ -183,6 +188,14 @@ def test_a_revert_that_fails_is_told_and_what_is_in_effect_is_not_known() -> Non
     assert turns[1].restored is None
     assert turns[2].stage == "applied"  # what is in effect is not known, so it is not "nothing to change"
     assert session.state.on_air is turns[2].run
+
+
+def test_what_cannot_be_told_after_an_undo_is_trouble_and_no_traceback() -> None:
+    station = Moody(moods=["obey", "obey", "figure in words"])
+    session, turns = talk(station, asks("max_rate", max_power_w=10.0), asks("max_rate", max_power_w=5.0), UNDO)
+    assert turns[2].stage == "undone"
+    assert "reports something that is no allocation" in turns[2].reply
+    assert session.state.on_air is None
 
 
 def test_after_a_revert_that_failed_status_tells_that_it_is_not_known_and_what_was_read_back() -> None:

@@ -13,8 +13,10 @@ Where no outage probability was accepted, a missed promise is no fault by itself
 
 from __future__ import annotations
 
+import contextlib
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from numbers import Real
 from typing import cast
 
 import numpy as np
@@ -24,7 +26,7 @@ from wirelessagent.agent.turn import Run
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError
-from wirelessagent.model.metrics import RATE_TOLERANCE
+from wirelessagent.model.metrics import RATE_TOLERANCE, LinkMetrics
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.telling.catalogue import message
@@ -38,6 +40,8 @@ _SAME_POWER = 1e-3
 """Share of the power by which two allocations may differ and be the same: what radios round that do not say how far."""
 
 _ROUNDING = 1e-9
+
+_FIGURES = {each.name for each in fields(LinkMetrics)} - {"user_rate_bps"}
 
 _ESCAPES = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
 _LONGEST_MESSAGE = 300
@@ -68,32 +72,31 @@ class Effect:
 
 def carry_out(run: Run, station: BaseStation, last_good: Run | None, tolerance: float = TOLERANCE) -> Effect:
     """Apply a run's decision; where it is at fault, put the last good one back."""
-    language = run.intent.language
-    outcome, failure = _applied(station, run.decision, language)
-    done = run
-    if outcome is not None:
-        try:
-            done = run.with_outcome(outcome)
-        except Exception:  # noqa: BLE001  # figures of any kind may be read back
-            outcome, failure = None, message(language, "station.misread", station=station.name)
-    faults = amiss = [failure] if outcome is None else _differences(run.decision, outcome, station, language)
-    if outcome is not None and not amiss:
-        faults = [*_broken_promises(run.decision, outcome, tolerance, language), *_worse(done, last_good, tolerance)]
+    language, done = run.intent.language, run
+    match _applied(run, station, language):
+        case str() as failure:
+            faults = amiss = [failure]
+        case done, outcome:
+            faults = amiss = _differences(run.decision, outcome, station, language)
+            if not amiss:
+                broken = _broken_promises(run.decision, outcome, tolerance, language)
+                faults = [*broken, *_worse(done, last_good, tolerance)]
     restored, trouble = None, ""
     if faults and last_good is not None:
         try:
-            restored, trouble = put_back(last_good, station, language)
+            _, restored, trouble = put_back(last_good, station, language)
         except InputError as error:  # something was applied before, so what is in effect has to be told
             trouble = message(language, "station.failed", station=station.name, why=_plain(error))
     return Effect(run=done, faults=tuple(faults), restored=restored, trouble=trouble, as_decided=not amiss)
 
 
-def put_back(good: Run, station: BaseStation, language: str) -> tuple[Outcome | None, str]:
-    """What was read back after an earlier allocation was applied again, and what went wrong with that."""
-    outcome, failure = _applied(station, good.decision, language)
-    if outcome is None:
-        return None, failure
-    return outcome, " ".join(_differences(good.decision, outcome, station, language))
+def put_back(good: Run, station: BaseStation, language: str) -> tuple[Run, Outcome | None, str]:
+    """An earlier run after it was applied again, what was read back, and what went wrong with that."""
+    match _applied(good, station, language):
+        case str() as failure:
+            return good, None, failure
+        case back, outcome:
+            return back, outcome, " ".join(_differences(good.decision, outcome, station, language))
 
 
 def applied_line(run: Run) -> str:
@@ -138,16 +141,18 @@ def respects(allocation: Decision | Outcome, wanted: Decision) -> bool:
     )
 
 
-def _applied(station: BaseStation, decision: Decision, language: str) -> tuple[Outcome | None, str]:
+def _applied(run: Run, station: BaseStation, language: str) -> tuple[Run, Outcome] | str:
+    """A run after it was applied, with what was read back, or why nothing can be made of that."""
     try:
-        outcome = station.apply(decision)
+        outcome = station.apply(run.decision)
     except InputError:  # what it was made with, or was given, cannot be used; nothing was touched
         raise
     except (Exception, SystemExit) as error:  # noqa: BLE001  # equipment of any make must not end the conversation
-        return None, message(language, "station.failed", station=station.name, why=_plain(error))
-    if not _is_readable(outcome, decision):
-        return None, message(language, "station.misread", station=station.name)
-    return outcome, ""
+        return message(language, "station.failed", station=station.name, why=_plain(error))
+    if _is_readable(outcome, run.decision):
+        with contextlib.suppress(Exception):  # figures of any kind may be read back
+            return run.with_outcome(outcome), outcome
+    return message(language, "station.misread", station=station.name)
 
 
 def _plain(error: BaseException) -> str:
@@ -166,8 +171,10 @@ def _is_readable(outcome: object, decision: Decision) -> bool:
         return False
     users, achieved = decision.rate_bps.shape, outcome.achieved
     rates = [outcome.promised_bps, outcome.missed, *([] if achieved is None else [achieved.user_rate_bps])]
-    rows = all(map(_is_row, (outcome.owner, outcome.power_w, *rates)))
-    return rows and outcome.owner.shape == outcome.power_w.shape and all(each.shape == users for each in rates)
+    figures = [] if achieved is None else [getattr(achieved, name) for name in _FIGURES]
+    readable = all(map(_is_row, (outcome.owner, outcome.power_w, *rates)))
+    readable &= all(isinstance(figure, Real) for figure in figures)
+    return readable and outcome.owner.shape == outcome.power_w.shape and all(each.shape == users for each in rates)
 
 
 def _is_row(values: object) -> bool:

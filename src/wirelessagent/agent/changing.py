@@ -213,14 +213,13 @@ def _apply(talk: Talk, reply: Reply, state: State, run: Run, station: BaseStatio
 def _put_back(talk: Talk, reply: Reply, state: State, good: Run, station: BaseStation) -> Reply:
     """Apply again what was in effect before, for an undo."""
     talk.site.tell("act", talk.say("stage.applying", station=station.name), talk.language)
-    outcome, trouble = talk.site.put_back(good, station)
+    back, restored, trouble = talk.site.put_back(good, station)
     told = talk.say("undo.not_put_back", why=trouble) if trouble else _in_effect(talk, "undo.put_back", good)
-    back = good if outcome is None else good.with_outcome(outcome)
     new = dataclasses.replace(
         state, run=back if state.run is good else state.run, planned=None, question=None,
         on_air=None if trouble else back, last_good=state.last_good if trouble else back,
     )  # fmt: skip
-    return _changing(talk, reply, told, stage="undone", state=new, run=back, restored=outcome)
+    return _changing(talk, reply, told, stage="undone", state=new, run=back, restored=restored)
 
 
 def _in_effect(talk: Talk, key: str, run: Run, **places: str) -> Said:

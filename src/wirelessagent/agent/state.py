@@ -177,12 +177,11 @@ class Site:
             self.read_last = effect.restored or effect.run.outcome
         return effect
 
-    def put_back(self, run: Run, station: BaseStation) -> tuple[Outcome | None, str]:
-        """Apply again what was in effect before: what was read back, and what went wrong."""
+    def put_back(self, run: Run, station: BaseStation) -> tuple[Run, Outcome | None, str]:
+        """Apply again what was in effect before: the run, what was read back, and what went wrong."""
         with self._told(run):
-            outcome, trouble = acting.put_back(run, station, run.intent.language)
-            self.read_last = outcome
-        return outcome, trouble
+            back, self.read_last, trouble = acting.put_back(run, station, run.intent.language)
+        return back, self.read_last, trouble
 
     @contextlib.contextmanager
     def _told(self, run: Run) -> Generator[None]:

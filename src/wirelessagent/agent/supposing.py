@@ -245,7 +245,7 @@ def with_requests(talk: Talk, act: acts.CompareRequests) -> Reply:
     now, request = talk.needed(talk.state.run), talk.needed(talk.state.request)
     changed = [(_label(change, talk.language), applied(request, change)[0]) for change in act.changes]
     columns = [(name, talk.tried(one)) for name, one in changed if one is not None]
-    if len(columns) == 1:
+    if len(columns) < 2:
         columns.insert(0, (talk.say("compared.now"), talk.site.foreseen(now)))
     assumed = [note for _, one in columns for note in talk.notes(one, before=now.notes)]
     said = talk.joined(*dict.fromkeys(assumed), *_outcomes(talk, columns))
