@@ -67,6 +67,13 @@ def test_the_report_shows_the_objectives_own_figure_predicted_and_achieved() -> 
     assert wa.report(decided("max_rate")).figures()[0][0] == "Total rate"
 
 
+def test_a_value_that_is_no_rate_and_has_no_name_is_not_called_the_total_rate() -> None:
+    for unit, name in (("", "Value"), ("√(bit/s)", "Value"), ("bit/s", "Total rate")):
+        objective = type("Unnamed", (MaxRate,), {"name": "unnamed", "unit": unit})()
+        report = wa.report(decided(objective))
+        assert report.figures()[0][0] == name
+
+
 def test_weights_are_told() -> None:
     weights = (1.0, 3.0, 0.5, 1.0)
     assert "by their weights, from 0.5 to 3" in told(decided("max_rate", weights=weights))

@@ -79,6 +79,8 @@ def name_of_figure(decision: Decision, language: str = "en") -> str:
     """What the decision's value is called, as in "lowest rate"; empty where its unit says it all."""
     objective = objective_of(decision)
     named = _first_of(objective.figure_name, language)
+    if not named and objective.measure == "utility" and decision.unit != "bit/s":
+        return message(language, "text.value")
     if named or decision.problem.weights is None:
         return named
     if objective.measure == "efficiency":
@@ -101,9 +103,7 @@ def _first_of(phrases: Phrases, language: str) -> str:
 def value_name(decision: Decision, language: str) -> str:
     """What the value is called in a sentence, as in "total rate"."""
     named, objective = name_of_figure(decision, language), objective_of(decision)
-    if named or objective.measure != "utility":
-        return named or message(language, f"part.{objective.measure}")
-    return message(language, "part.rate" if objective.unit == "bit/s" else "text.value")
+    return named or message(language, "part.rate" if objective.measure == "utility" else f"part.{objective.measure}")
 
 
 def outcome_in_words(decision: Decision, language: str) -> str:

@@ -25,7 +25,6 @@ import numpy.typing as npt
 from wirelessagent.kernels.supply import foreground
 from wirelessagent.language.acts import Act, Everybody, Serve, Undo
 from wirelessagent.language.conversation import read_by_rules
-from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.possible import Change, Effect, Possible
 from wirelessagent.language.conversation.signs import BUCKETS, TOGETHER, Read, Signs, Together, block_places, place_of
@@ -34,7 +33,7 @@ from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.request import Key
 from wirelessagent.language.training.fit import in_parallel, rounded, write
 from wirelessagent.language.training.fit_kernel import Places, one_pass_of_talks, scores_of
-from wirelessagent.language.training.talk_notation import USERS, Example, examples
+from wirelessagent.language.training.talk_notation import Example, examples
 
 _PASSES, _STEP, _FAINT = (2, 4), 0.5, 1
 """Passes of each round, in which those changes may go together that scored best before it; the size of a step; weights
@@ -117,9 +116,9 @@ def is_same(one: Effect, other: Effect) -> bool:
 def parsed(example: Example) -> Parsed:
     """Everything that a line may mean, as numbers."""
     line = Line.of(example.text, example.context)
-    possible = Possible(Anchored.of(example.text, example.context.language, USERS), example.context)
+    possible = Possible(line.anchored, example.context)
     read = Read.of(read_by_rules(example.text, example.context, OfflineRecogniser()), possible)
-    signs = Signs(line, possible, read, example.context.language)
+    signs = Signs(line, possible, read, line.voice.language)
     changes = tuple(signs.changes())
     named = [signs.blocks(change) for change in changes]
     blocks = {name: words for each in named for name, words in each}
