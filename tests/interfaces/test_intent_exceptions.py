@@ -6,8 +6,9 @@ import pytest
 
 from wirelessagent.language.intent import checked_constraints
 from wirelessagent.language.judged import Judged
-from wirelessagent.language.offline import recognise
+from wirelessagent.language.offline import OfflineRecogniser, recognise
 from wirelessagent.language.quantities import parse_quantities
+from wirelessagent.language.recogniser import Context
 from wirelessagent.language.replies import limits_in_words
 from wirelessagent.language.text import normalise
 from wirelessagent.model.errors import InputError
@@ -135,6 +136,24 @@ def test_whoever_has_no_cap_is_not_left_out(text: str) -> None:
     intent = recognise(f"max rate, at most 2 Mbit/s each, {text}")
     assert intent.kind == "clarify"
     assert "leave_out" not in intent.pending
+
+
+@pytest.mark.parametrize(
+    ("text", "constraints"),
+    [
+        ("users 1 to 4 at most 2 Mbps, no cap on user 3", {"max_rate_bps": dict.fromkeys("124", 2e6)}),
+        ("users 1-4 at least 500k, no floor for user 2", {"min_rate_bps": dict.fromkeys("134", 5e5)}),
+        ("cap users 4 to 6 at 3 Mbps, user 5 without a cap", {"max_rate_bps": dict.fromkeys("46", 3e6)}),
+        (
+            "at least 300k for everybody and at most 2 Mbps, no cap on user 3",
+            {"min_rate_bps": 3e5, "max_rate_bps": dict.fromkeys("1245678", 2e6)},
+        ),
+        ("users 2, 4 and 6 at least 1 Mbps, but user 4 needs no guarantee", {"min_rate_bps": dict.fromkeys("26", 1e6)}),
+    ],
+)
+def test_what_somebody_goes_without_is_taken_from_what_others_have(text: str, constraints: dict[str, object]) -> None:
+    cell = Context(user_names=tuple(f"user {number}" for number in range(1, 9)))
+    assert OfflineRecogniser().recognise(f"max rate, {text}", cell).constraints == constraints
 
 
 @pytest.mark.parametrize("text", ALONE)

@@ -16,7 +16,7 @@ from wirelessagent.language.comparators import WITH
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.mentions import ARTICLES, WITHOUT, Mention, Role
-from wirelessagent.language.moods import lifted_in
+from wirelessagent.language.moods import lifted_in, may_be_lifted
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.stated import Beside, Doubt, Reading, doubt_parts, take_blocks, take_counts
@@ -26,7 +26,6 @@ from wirelessagent.language.word_tables import deferred, either
 _SURE_OF_A_ROLE, _SURE_OF_SILENCE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.9, 0.5, 0.45
 _SAID = 0.4
 _RATES = ("min_rate_bps", "max_rate_bps")
-_OF_FLOORS = frozenset({"min_rate_bps"})
 _LEAVING = Phrases(either("figures", "users", "leaving"))
 _ALIKE = either("figures", "users", "alike")
 _GIVEN_ALIKE = Beside(
@@ -109,26 +108,33 @@ class Allotments:
         return role
 
     def _exempt(self) -> None:
-        """A floor of zero for whoever is excepted where all others have one, and nothing else may be meant.
+        """Take from whoever is excepted what others have: all that they go without, else the one limit of everybody.
 
-        Whoever has a cap alone where "the others" have a floor has none either. Where limits are of named users alone,
-        there is none to take from whoever is excepted.
+        Where everybody has a floor, theirs is zero. Whoever has a cap alone where "the others" have a floor has none
+        either. Where limits are of named users alone, there is none to take from whoever is excepted.
         """
         floors, caps = (self._given[name] for name in _RATES)
-        if EVERYBODY in caps or not (floors or caps):
-            return
         for mention in [each for each, role in self._roles.items() if role == "exempt"]:
             lifts = self._lifted.get(mention, frozenset())
-            unsaid = not lifts if EVERYBODY not in floors else lifts not in (frozenset(), _OF_FLOORS)
-            if unsaid:  # which limit, if any, does not hold
+            meant = [name for name in _RATES if self._given[name] and (not lifts or may_be_lifted(name, lifts))]
+            of_all = [name for name in meant if EVERYBODY in self._given[name]]
+            own = any(user in self._given[name] for name in meant for user in mention.users)
+            others = [user for user in self._judged.users_of_the_cell if user not in mention.users]
+            known = "max_rate_bps" not in of_all or others  # a ceiling of the others is one of each of them
+            if not (known and (meant if lifts else len(of_all) == 1 and not own)):  # what, if any, does not hold
                 continue
-            if not any(user in (floors or caps) for user in mention.users):
-                self._used.add(mention)
-                self._roles[mention] = "given"
-                if EVERYBODY in floors:
-                    text = self._text[mention.start : mention.end]
-                    floors.update({user: _Given(value=0.0, text=text) for user in mention.users})
-        if EVERYBODY not in floors:
+            self._used.add(mention)
+            self._roles[mention] = "given"
+            for name in meant if lifts else of_all:
+                for user in mention.users:
+                    self._given[name].pop(user, None)
+            if "min_rate_bps" in of_all:
+                text = self._text[mention.start : mention.end]
+                floors.update({user: _Given(value=0.0, text=text) for user in mention.users})
+            if "max_rate_bps" in of_all:
+                common = caps.pop(EVERYBODY)
+                caps.update({user: common for user in others if user not in caps})
+        if EVERYBODY not in floors or EVERYBODY in caps:
             return
         if "min_rate_bps" in self._of_others:
             for user in [user for user in caps if user not in floors]:
@@ -182,7 +188,7 @@ class Allotments:
         """The limits that are lifted where all that is said of somebody lifts them: "user 6 no guarantee"."""
         start, end = self._clause_of(mention)
         lifted = frozenset[str](() if self._has_figures(start, end) else lifted_in(self._plain[start:end]))
-        return lifted if lifted <= {*_RATES, "all"} else frozenset()
+        return lifted if lifted <= {*_RATES, "all", "ceilings"} else frozenset()
 
     def _others_have_a_figure(self, mention: Mention) -> bool:
         """Whether the others, named behind somebody, have a figure in their clause: "除了用户4和5，其他人至少700k"."""

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from wirelessagent.language.intent import CONSTRAINTS
@@ -195,8 +196,11 @@ def plain_command(plain: str) -> str:
     return next((topic for topic, words in _ANSWERS.items() if words.fullmatch(plain)), "")
 
 
-_GENERAL = ("max_power_w", "min_rate_bps", "max_rate_bps", "outage_probability", "subcarrier_max_power_w")
-"""What "all limits" are."""
+_GENERAL: Mapping[str, tuple[str, ...]] = MappingProxyType({
+    "all": ("max_power_w", "min_rate_bps", "max_rate_bps", "outage_probability", "subcarrier_max_power_w"),
+    "ceilings": ("max_power_w", "max_rate_bps", "subcarrier_max_power_w"),
+})  # fmt: skip
+"""What "the limits" and "the caps" may be."""
 
 
 def dropped_in(plain: str, context: Context | None) -> tuple[tuple[str, ...], tuple[Span, ...]]:
@@ -206,16 +210,24 @@ def dropped_in(plain: str, context: Context | None) -> tuple[tuple[str, ...], tu
     (('max_power_w',), ('max_power_w', 'weights'))
     """
     found, alone = lifted_in(plain), list(places(_lifted("alone"), plain))
-    if alone or found.keys() == {"all"}:
+    named, general = [name for name in CONSTRAINTS if name in found], [name for name in _GENERAL if name in found]
+    if alone or (general and not named):
         held = () if context is None or alone else tuple(context.constraints)
-        return tuple(name for name in _GENERAL if name in held) or ("max_power_w",), (*found.values(), *alone)
-    return tuple(name for name in CONSTRAINTS if name in found), tuple(found.values())
+        meant = (name for name in CONSTRAINTS if name in held and any(name in _GENERAL[each] for each in general))
+        named = [*meant] or ["max_power_w"]
+    return tuple(named), (*found.values(), *alone)
+
+
+def may_be_lifted(kind: str, found: Iterable[str]) -> bool:
+    """Whether a kind of limits may be meant by what a sentence lifts: by its name, or by a name for many."""
+    return any(name in (kind, "all") or kind in _GENERAL.get(name, ()) for name in found)
 
 
 def lifted_in(plain: str) -> dict[str, Span]:
-    """The limits that a sentence lifts, "all" for any, each with the span of the words that say so.
+    """The limits that a sentence lifts, each with the span of the words that say so.
 
-    Words that lift a limit stand ahead of its name or behind it, with no denial beside them; another may follow.
+    "all" is any limit, "ceilings" are any at most. Words that lift a limit stand ahead of its name or behind it, with
+    no denial beside them; another may follow.
     """
     go, gone, denied = (list(places(words, plain)) for words in (_lifted("go"), _lifted("gone"), _denying()))
     found: dict[str, Span] = {}
@@ -247,8 +259,8 @@ def may_lift(name: str, plain: str) -> bool:
 
 
 def named_in(plain: str) -> list[tuple[Span, str]]:
-    """Where a sentence names a limit, and which, "all" for any; a name within a longer one is none."""
-    named = [(span, name) for name in (*CONSTRAINTS, "all") for span in places(_lifted(name), plain)]
+    """Where a sentence names a limit, and which; a name within a longer one is none."""
+    named = [(span, name) for name in (*CONSTRAINTS, *_GENERAL) for span in places(_lifted(name), plain)]
     longer = [other for other, _ in named]
     return [
         each for each in sorted(named) if not any(each[0] != other and is_within(each[0], other) for other in longer)

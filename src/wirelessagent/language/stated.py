@@ -202,6 +202,7 @@ _SHARED = Beside(
     ),
     deferred(rf"(?i)(?:\s++|{_FULL})*+(?:{_BUDGET})\b(?:\s+(?:budget|limit))?|的?(?:发射|总)?(?:功率|预算)(?!放大)"),
 )
+_UNUSED = deferred(rf"(?i)\s*(?:{either('figures', 'shared', 'unused')})")
 
 
 def shares_power(plain: str, figure: Quantity) -> bool:
@@ -301,11 +302,19 @@ class Reading:
             self.exact.add(name)
 
     def take_share(self, figure: Quantity, max_power_w: float) -> None:
-        """Take a share of the power, with the words beside that say so."""
-        span = _SHARED.widened(self.plain, (figure.phrase_start, figure.phrase_end))
+        """Take a share of the power, with the words beside that say so: of all of it or of each subcarrier's.
+
+        What is to be left unused leaves the rest: "20 % of the power in reserve".
+        """
+        start, end = _SHARED.widened(self.plain, (figure.phrase_start, figure.phrase_end))
+        unused = _UNUSED.match(self.plain, end)
+        span = start, unused.end() if unused else end
         self.masked.append(span)
         self.spoken_for.append(span)
-        self.take("max_power_w", figure.value * max_power_w, figure)
+        around = self.plain[clause_start(self.plain, start) : start], self.plain[end : clause_end(self.plain, end)]
+        carriers = any(CARRIERS.search(part) and not any(map(str.isdigit, part)) for part in around)
+        name = "subcarrier_max_power_w" if carriers else "max_power_w"
+        self.take(name, max_power_w * (1 - figure.value if unused else figure.value), figure)
 
     def changes_by(self, figure: Quantity) -> bool:
         """Whether something is to become more or less by a share: "half the power less"."""

@@ -27,7 +27,7 @@ from wirelessagent.language.conversation.possible import Change, Effect, Possibl
 from wirelessagent.language.conversation.signs import Read, Signs, block_places, place_of
 from wirelessagent.language.guard import asking_whether, guarded, stranger
 from wirelessagent.language.intent import Intent
-from wirelessagent.language.moods import classes_in, is_denied, lifted_in
+from wirelessagent.language.moods import classes_in, is_denied, lifted_in, may_be_lifted
 from wirelessagent.language.offline import NAME as OFFLINE
 from wirelessagent.language.request import changed, constraints_of
 from wirelessagent.language.text import Span, overlaps
@@ -144,11 +144,13 @@ def weigh(signs: Signs, model: TalkModel | None = None) -> Weighed:
     """What a line means likeliest, by the model of this release or another one."""
     model, changes = model or shipped_talk_model(), signs.changes()
     scores, together = model.scores(signs, changes), signs.together
-    lifted = lifted_in(signs.anchored.plain).keys()
+    lifted = lifted_in(signs.anchored.plain)
     lifts = [{act.kind for act in change.acts if isinstance(act, Drop)} for change in changes]
-    found = [(each, [changes[place] for place in each.places]) for each in meanings(changes, scores)
-             if not lifted or "all" in lifted  # "user 3 needs no cap" keeps the floor
-             or all(lifts[place] <= lifted for place in each.places)]  # fmt: skip
+    found = [
+        (each, [changes[place] for place in each.places])
+        for each in meanings(changes, scores)
+        if not lifted or all(may_be_lifted(kind, lifted) for place in each.places for kind in lifts[place])
+    ]
     total = np.array([
         sum(scores[place] for place in each.places) + model.together[together.signs(parts, each.effect)].sum()
         for each, parts in found
