@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from decimal import Decimal
 
 import pytest
@@ -261,6 +262,9 @@ def test_absurd_numbers_are_infinite_not_errors() -> None:
         ("vingt pour cent", "ratio", 0.2), ("5 por ciento", "ratio", 0.05), ("99 Prozent", "ratio", 0.99),
         ("a quarter of a megabit", "rate", 250e3), ("a half watt", "power", 0.5),
         ("每人2M", "rate", 2e6), ("每人五百k", "rate", 5e5), ("不低于100 kbit/s的", "rate", 1e5),
+        ("one miss in thirty", "ratio", 1 / 30), ("99 out of 100", "ratio", 0.99), ("九成八就够", "ratio", 0.98),
+        ("quatre-vingt-dix-sept fois sur cent", "ratio", 0.97), ("une fois sur quarante", "ratio", 0.025),
+        ("einmal in vierzig", "ratio", 0.025), ("diecinueve veces de cada veinte", "ratio", 0.95),
     ],
 )  # fmt: skip
 def test_plain_figures_of_other_languages_and_of_the_trade(text: str, kind: str, value: float) -> None:
@@ -313,3 +317,10 @@ def test_an_amount_in_another_time_is_no_rate(text: str) -> None:
 def test_each_user_and_second_are_no_other_time() -> None:
     for text in ("1 Mbit each", "1 Mbps each", "每人1兆", "1 Mbit/s per user", "每秒1兆", "2 Mbit/s a user"):
         assert [found.kind for found in parse_quantities(text)] == ["rate"], text
+
+
+def test_a_user_ahead_of_a_rate_with_a_suffix_is_no_part_of_it() -> None:
+    for text, value in (("user 7 400k", 4e5), ("3 at least 1 500 kbit/s", 1.5e6), ("7 400k though", 4e5)):
+        found = recognise(f"max rate, {text}")
+        figures = {**found.constraints, **found.pending}.get("min_rate_bps", {})
+        assert set(figures.values() if isinstance(figures, Mapping) else [figures]) == {value}, text

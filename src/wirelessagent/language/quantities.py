@@ -26,7 +26,7 @@ from wirelessagent.language.comparators import Comparator, comparison
 from wirelessagent.language.mentions import is_of_each
 from wirelessagent.language.number_words import cardinals, listed
 from wirelessagent.language.numerals import NUMBERED, Number, and_part, chinese_value, numbers
-from wirelessagent.language.text import AND, USER_NOUN, Phrases, has_chinese, normalise, overlaps
+from wirelessagent.language.text import AND, USER_NOUN, Phrases, Span, has_chinese, normalise, overlaps
 from wirelessagent.language.units import Unit, unit_at, unit_of_another_time
 from wirelessagent.language.word_tables import any_word, deferred, either, words_of
 
@@ -51,31 +51,27 @@ _TRAILING_DIGIT = deferred(
     r"(?P<digit>[一二三四五六七八九])(?![零〇一二三四五六七八九十百千万亿点半个号户位人台家成兆瓦毫kKM])"
 )
 _FRACTION = deferred(r"(?P<below>[0-9]+|[一二三四五六七八九十百千万两]+)分之$")
-_TENTHS = deferred(r"成(?P<more>[一二三四五六七八九半]{0,3})(?![员立为本交绩效长了就品]|功(?!率)|不变)")
+_TENTHS = deferred(r"成(?:(?P<more>[一二三四五六七八九半]{1,3})|(?![员立为本交绩效长了就品]|功(?!率)|不变))")
 _COUNTED = deferred(rf"(?i)\s+(?:of\s+(?:the|our|my)\s+)?(?:{USER_NOUN}|people|persons|personas|personnes|sensor\w*)\b")
 
 
 # Odds, "one miss in twenty", 十次里有九次, and reliabilities, "five nines", 四个九.
-_PARTS = {
-    **cardinals(1, 9),
-    **cardinals(19, 19),
-    **listed("part", "odds"),
-    **{f"{word}mal": count for word, count in cardinals(2, 9, ("de",)).items()},
-}
-_WHOLES = {
-    **{word: count for word, count in cardinals(10, 100).items() if count in (10, 20, 50, 100)},
-    **{word: scale for word, scale in listed("scales").items() if scale in (100, 1000)},
-    **listed("whole", "odds"),
-}
+_ONCE = {**listed("once", "odds"), **{f"{word}mal": count for word, count in cardinals(2, 9, ("de",)).items()}}
+_ARTICLES = listed("part", "odds")
 _ORDINALS = listed("ordinal", "odds")
-_EVENT = f"{any_word('figures', 'odds', 'events')}s?"
-_PART = rf"(?P<part>[0-9]{{1,3}}|{'|'.join(sorted(_PARTS, key=len, reverse=True))})"
-_WHOLE = rf"(?P<whole>10|20|25|40|50|100|200|500|1[ .,']?000|{'|'.join(sorted(_WHOLES, key=len, reverse=True))})"
+_EVENT, _AMONG = f"{any_word('figures', 'odds', 'events')}s?", any_word("figures", "odds", "among")
+_AMONG_AHEAD = deferred(
+    rf"(?i)[\s-]+(?:(?P<event>{_EVENT})[\s-]+(?:of|{_AMONG})|{_AMONG})[\s-]+(?:(?:every|each|je|an?)\s+)?$"
+)
+_PART_AHEAD = deferred(
+    rf"(?i)(?<![\w.,-])(?:(?P<once>{'|'.join(sorted(_ONCE, key=len, reverse=True))})|{'|'.join(_ARTICLES)})$"
+)
+_ROUND, _FEWEST, _NEAR = (10, 20, 25, 40, 50, 100, 200, 500, 1000), 10, 40
+"""Of how many parts a share is said by no more than a word for "of", and of how many at least by what happens; how
+far the words for that reach."""
 _NUMERAL = "[0-9一二两三四五六七八九十百千]+"
 _ODDS = deferred(
-    rf"(?i)(?<![\w.,]){_PART}(?:[\s-]+{_EVENT}[\s-]+of|(?:[\s-]+{_EVENT})?[\s-]+{any_word('figures', 'odds', 'among')})"
-    rf"[\s-]+(?:every\s+|each\s+|je\s+)?{_WHOLE}(?![\w%]|[.,][0-9]|\s?(?:[kmM]?W|dB\w*|[kKMG]?bit\S*|[kMG]bps)\b)|"
-    rf"\bjede[rsnm]?\s+(?P<ordinal>{'|'.join(_ORDINALS)})[nrsm]?\b|"
+    rf"(?i)\bjede[rsnm]?\s+(?P<ordinal>{'|'.join(_ORDINALS)})[nrsm]?\b|"
     rf"(?P<zhwhole>{_NUMERAL})(?P<unit>次|回)(?:里|中|之中|当中)?[^,，。;；0-9一二两三四五六七八九十百千]{{0,6}}(?P<zhpart>{_NUMERAL})(?P=unit)"
 )
 
@@ -184,7 +180,7 @@ def _share(plain: str, number: Number) -> Measure | None:
             return None
         return _ratio(value / below, over.start(), end, form=number.form)
     if tenths is not None and 0 < value < 10:
-        more = "".join("5" if letter == "半" else str(chinese_value(letter)) for letter in tenths["more"])
+        more = "".join("5" if letter == "半" else str(chinese_value(letter)) for letter in tenths["more"] or "")
         share = Decimal(f"{value}{'' if value != int(value) else '.'}{more or 0}") / 10
         return _ratio(share, start, tenths.end(), form=number.form)
     return None
@@ -198,10 +194,27 @@ def _ratio(value: Decimal, start: int, end: int, form: str = "words") -> Measure
 def _odds(plain: str) -> Iterator[Measure]:
     """The odds of a normalised text as ratios, "one miss in twenty", but for counts of users."""
     for match in _ODDS.finditer(plain):
-        part = _counted(match["part"] or match["zhpart"] or "1", _PARTS)
-        whole = _counted(match["whole"] or match["zhwhole"] or match["ordinal"], {**_WHOLES, **_ORDINALS})
-        if 0 < part < whole and _COUNTED.match(plain, match.end()) is None:
-            yield _ratio(part / whole, *match.span())
+        part, whole = (_counted(match[name] or "1", {}) for name in ("zhpart", "zhwhole"))
+        yield from _in_all(plain, part, Decimal(_ORDINALS.get((match["ordinal"] or "").lower(), whole)), match.span())
+    found = list(numbers(plain))
+    for whole in found:
+        ahead = _AMONG_AHEAD.search(plain, max(0, whole.start - _NEAR), whole.start)
+        if ahead is None or whole.value is None or unit_at(plain, whole.end) is not None:
+            continue
+        word = _PART_AHEAD.search(plain, max(0, ahead.start() - _NEAR), ahead.start())
+        part = next((each for each in found if each.end == ahead.start()), None)
+        if part is None and word is not None:
+            count = Decimal(_ONCE.get(word[0].lower(), 1))
+            part = Number(value=count, start=word.start(), end=word.end(), form="words")
+        happens = ahead["event"] or (word is not None and word["once"])
+        if part is not None and (whole.value >= _FEWEST if happens else whole.value in _ROUND):
+            yield from _in_all(plain, part.value, whole.value, (part.start, whole.end))
+
+
+def _in_all(plain: str, part: Decimal | None, whole: Decimal, span: Span) -> Iterator[Measure]:
+    """What a part is of a whole, where that is no count of users."""
+    if part is not None and 0 < part < whole and _COUNTED.match(plain, span[1]) is None:
+        yield _ratio(part / whole, *span)
 
 
 def _counted(word: str, words: Mapping[str, int | Decimal]) -> Decimal:
