@@ -24,13 +24,13 @@ from wirelessagent.language.conversation.anchors import Anchor, Anchored
 from wirelessagent.language.conversation.answers import speaks_of_applying
 from wirelessagent.language.conversation.line import NAME, Line, is_all
 from wirelessagent.language.conversation.possible import Change, Effect, Possible
-from wirelessagent.language.conversation.signs import Read, Signs, block_places, place_of
+from wirelessagent.language.conversation.signs import WORDS, Read, Signs, block_places, place_of
 from wirelessagent.language.guard import asking_whether, guarded, stranger
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.moods import classes_in, is_denied, lifted_in, may_be_lifted
 from wirelessagent.language.offline import NAME as OFFLINE
 from wirelessagent.language.request import changed, constraints_of
-from wirelessagent.language.text import Span, overlaps
+from wirelessagent.language.text import Span, hashed, overlaps
 
 TALKS_FILE = Path(__file__).parent.parent / "talks.npz"
 BLOCK, OWN = 1.0, 0.25
@@ -61,19 +61,29 @@ class Meaning:
 
 @dataclass(frozen=True, kw_only=True)
 class TalkModel:
-    """Weights of signs, as int8 with their ``scale``, and of what changes are together."""
+    """Weights of signs, as int8 with their ``scale``, and of what changes are together; the words that were taught.
+
+    These are one bit each, of ``WORDS``.
+    """
 
     weights: npt.NDArray[np.int8]
     scale: float
     together: npt.NDArray[np.float32]
+    words: npt.NDArray[np.uint8]
 
     @classmethod
     def load(cls, path: Path) -> TalkModel:
         with np.load(path) as arrays:
-            return cls(weights=arrays["weights"], scale=float(arrays["scale"]), together=arrays["together"])
+            scale = float(arrays["scale"])
+            return cls(weights=arrays["weights"], scale=scale, together=arrays["together"], words=arrays["words"])
 
     def save(self, path: Path) -> None:
-        np.savez_compressed(path, weights=self.weights, scale=self.scale, together=self.together)
+        np.savez_compressed(path, weights=self.weights, scale=self.scale, together=self.together, words=self.words)
+
+    def knows(self, word: str) -> bool:
+        """Whether talks were taught with a word."""
+        place = hashed(word) % WORDS
+        return bool(self.words[place >> 3] >> (place & 7) & 1)
 
     def scores(self, signs: Signs, changes: Sequence[Change]) -> npt.NDArray[np.float64]:
         """How strongly the signs speak for each change."""
@@ -212,7 +222,7 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     read = Read.of(intent, possible)
     if read.acts and not read.effect and changed(possible.figures, read.acts) != possible.figures:
         return intent, False  # it shows only later, such as a promise to a user who is left out
-    found = weigh(Signs(line, possible, read, line.voice.language))
+    found = weigh(Signs(line, possible, read, line.voice.language, shipped_talk_model().knows))
     heard: Said = (read.supposes and bool(read.effect), read.effect or frozenset())
     if any(isinstance(getattr(act, "whom", None), Named) for act in found.acts) and stranger(line.text, context):
         return intent, False  # who is that?
