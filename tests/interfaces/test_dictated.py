@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from wirelessagent.language.as_meant import heard
+from wirelessagent.language.as_meant import heard, without_corrected
 from wirelessagent.language.sentence import Sentence, own_words
 
 NAMES = tuple(f"user {number}" for number in range(1, 9))
@@ -21,6 +21,12 @@ NAMES = tuple(f"user {number}" for number in range(1, 9))
         ("highest some rate and keep user for under one and a half megabits", {"max_rate_bps": {"4": 1.5e6}}),
         ("max min and leave out user ate", {"leave_out": ("8",)}),
         ("maximise the sum with eighteen watts and drop user won", {"max_power_w": 18.0, "leave_out": ("1",)}),
+        ("user for needs too megabits and keep the power low", {"min_rate_bps": {"4": 2e6}}),
+        ("users won threw four get five hundred kay each", {"min_rate_bps": dict.fromkeys("1234", 5e5)}),
+        ("cap user sicks at won point five megabits on any sub carrier", {"max_rate_bps": {"6": 1.5e6}}),
+        ("potencia mínima y ocho cientos kilo bits para cada usuario", {"min_rate_bps": 8e5}),
+        ("minimise la puissance et l'utilisateur cette a au moins de mégabits", {"min_rate_bps": {"7": 2e6}}),
+        ("功率最低用户似至少一照", {"min_rate_bps": {"4": 1e6}}),
         ("puissance minimale et cinq sans kilobits par seconde pour chacun au minimum", {"min_rate_bps": 5e5}),
     ],
 )
@@ -36,3 +42,35 @@ def test_what_dictation_misspells_is_read_as_it_was_said(text: str, values: dict
 )  # fmt: skip
 def test_what_is_spelt_as_it_is_meant_stays(text: str) -> None:
     assert heard(text) == text
+
+
+@pytest.mark.parametrize(
+    ("said", "meant"),
+    [
+        ("and the limit is let me see fourteen watts yes fourteen", "and the limit is fourteen watts"),
+        ("and you know what leave out user seven yes seven", "and leave out user seven"),
+        ("con catorce vatios sí catorce a ver", "con catorce vatios"),
+        ("euh comment dire douze watts pas plus voilà", "douze watts pas plus"),
+        ("soll halt so schnell wie möglich sag ich mal", "soll so schnell wie möglich"),
+        ("嗯那个功率十四瓦对十四瓦来吧", "功率十四瓦"),
+        ("for for the the slowest in blocks of of two", "for the slowest in blocks of two"),
+        ("at fourteen watts uh no thirteen watts", "at thirteen watts"),
+        ("para cada usuario quinientos no perdón cuatrocientos kilobits", "para cada usuario cuatrocientos kilobits"),
+        ("plafonné à deux enfin non à trois mégabits", "plafonné à trois mégabits"),
+        ("auf vierzig dbm ach quatsch achtunddreißig dbm", "auf achtunddreißig dbm"),
+        ("每个人给五百哦不对给六百k", "每个人给 六百k"),
+        ("everyone gets at least one no two megabits", "everyone gets at least two megabits"),
+        ("gewicht zwei quatsch drei", "gewicht drei"),
+        *(
+            (text, text)
+            for text in (
+                "let me see the rate of user 3", "do you know what user 3 gets", "what kind of power is it",
+                "halt user 3 at 2 Mbit/s", "a ver si sube", "voyons ce que donne 10 W", "du genre 10 W",
+                "让用户3回来吧", "users two two and three", "保1号1 Mbps", "user 2 yes 2 megabits",
+                "each user 2 megabits yes 2 users are out", "it does not work well", "1 Mbit/s for 2, no, 3 Mbit/s",
+            )
+        ),
+    ],
+)  # fmt: skip
+def test_what_says_nothing_is_gone_before_a_line_is_read(said: str, meant: str) -> None:
+    assert " ".join(without_corrected(said).split()) == meant

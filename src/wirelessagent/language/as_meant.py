@@ -1,9 +1,9 @@
 """A sentence as it is meant: spelt as it was said, its shares worked out, without what it takes back.
 
 Dictation misspells: "thirty dee bee em" is dBm, "twenty what's" are watts, "user to gets" is user 2. Which words are
-heard for which is data (``figures/<language>.toml``, ``[heard]``): anywhere, right behind a number, and right behind a
-user who is named by no more: "each user to", "limit user to 2 Mbit/s" are none. What is taken back is blanked, as are
-sounds that fill a pause.
+heard for which is data (``figures/<language>.toml``, ``[heard]``): anywhere, right behind a number, ahead of a unit,
+right behind a noun of users, and there only where no more names them: "each user to", "limit user to 2 Mbit/s" are
+none. What is taken back is blanked, as is what says nothing: what fills a pause, a word or a figure said again.
 """
 
 from __future__ import annotations
@@ -13,8 +13,17 @@ import itertools
 import re
 from collections.abc import Iterator, Mapping
 
-from wirelessagent.language.mentions import ANY_NOUN, GIVEN_TO, JOINT_WORDS, MOST_USERS, WORD_NUMBER, mentions, named
-from wirelessagent.language.numerals import NUMBERED, factors, numbers
+from wirelessagent.language.mentions import (
+    ANY_NOUN,
+    GIVEN_TO,
+    JOINT_WORDS,
+    MOST_USERS,
+    WORD_NUMBER,
+    is_of_each,
+    mentions,
+    named,
+)
+from wirelessagent.language.numerals import NUMBERED, Number, factors, numbers
 from wirelessagent.language.shares import worked_out
 from wirelessagent.language.text import AND, WORD, clause_start, normalise, overlaps, replaced, written_over
 from wirelessagent.language.units import unit_at
@@ -36,24 +45,33 @@ def heard(text: str) -> str:
     >>> " ".join(heard("stay below thirty dee bee em and leave out user ate").split())
     'stay below thirty dBm and leave out user 8'
     """
-    plain, language = normalise(text), language_of(text)
-    ends = {number.end for number in numbers(plain)}
-    spans = list[tuple[int, int, str]]()
+    language = language_of(text)
     for name, words in table("figures", language).get("heard", {}).items():
+        plain, spans = normalise(text), list[tuple[int, int, str]]()
         for match in _misheard(name, language).finditer(plain):
             start, end = match.span("said")
             instead = words.get(match["said"].lower())  # none for letters such as "İ", which are an "i" to patterns
-            if instead and (name != "behind_numbers" or len(plain[:start].rstrip()) in ends):
+            if instead and _fits(name, plain, start, end):
                 spans.append((start, end, instead.ljust(end - start)))
-    return replaced(text, sorted(spans))
+        text = replaced(text, spans)
+    return text
+
+
+def _fits(name: str, plain: str, start: int, end: int) -> bool:
+    """Whether what stands at a place may be what is only heard "behind_numbers" or "ahead_of_units"."""
+    if name == "ahead_of_units":
+        return unit_at(plain, end) is not None
+    return name != "behind_numbers" or len(plain[:start].rstrip()) in {number.end for number in numbers(plain)}
 
 
 @functools.cache
 def _misheard(name: str, language: str) -> re.Pattern[str]:
     words: Mapping[str, str] = table("figures", language)["heard"][name]
-    said = rf"(?P<said>{'|'.join(sorted(map(re.escape, words), key=len, reverse=True))})(?![\w'])"
+    said = rf"(?P<said>{'|'.join(sorted(map(re.escape, words), key=len, reverse=True))})(?![A-Za-zÀ-ÿ0-9'])"
+    if name == "behind_nouns":
+        return deferred(rf"(?i)(?<![A-Za-zÀ-ÿ]){ANY_NOUN}\s*+{said}")
     if name != "behind_users":
-        return deferred(rf"(?i)(?<![\w'])(?:{said})")
+        return deferred(rf"(?i)(?<![A-Za-zÀ-ÿ'])(?:{said})")
     ahead = "|".join(table("figures", language)["users"]["heard_ahead"])
     behind, bound = ("|".join(table("figures", language)["users"][f"heard_{name}"]) for name in ("behind", "bound"))
     follows = rf"(?=\s+(?:{behind})\b|\s*(?:$|[,;.])|(?<!to)(?<!too)\s+(?:{bound})\b)"  # "limit user to at most"
@@ -65,12 +83,15 @@ _NUMBER = rf"(?:(?<![A-Za-z0-9.,])[0-9]+(?:[.,][0-9]+)?|\b{WORD_NUMBER}\b|(?<![{
 _BREAK = r"\s*+(?:[,;\uff0c；、啊哎哦唉]|[-–—…]++|\.{2,3}+)\s*+"
 _CORRECTS, _MEANS = (either("figures", "one", name) for name in ("corrects", "means"))
 _JOINT = rf"(?:{JOINT_WORDS}|\b{any_word('figures', 'users', 'to')}\b|[~/&+、到至和与]|(?<=[0-9])[-–](?=[0-9]))"
-_FILLED = either("figures", "one", "fillers")
+_FILLED, _CONFIRMS = (either("figures", "one", name, number=WORD_NUMBER) for name in ("fillers", "confirms"))
 _TOKEN = rf"(?>{WORD})"
 _PAUSE = rf"(?:(?:{_FILLED})\s*+|{_BREAK})"
 _RETURN = deferred(  # what stands between a figure and the one that takes its place: words of either, what takes back
-    rf"(?i)(?P<tail>(?:\s*+{_TOKEN}){{0,4}}?)\s*+(?P<back>(?P<pause>{_PAUSE}*+)(?P<said>{_CORRECTS}|(?P<means>{_MEANS}))"
+    rf"(?i)(?P<tail>(?:\s*+{_TOKEN}){{0,4}}?)\s*+(?P<back>(?P<pause>{_PAUSE}*+)(?P<said>(?P<means>{_MEANS})|{_CORRECTS})"
     rf"(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}|是))*+)\s*+)(?P<head>(?:{_TOKEN}\s*+){{0,5}}?)"
+)
+_AGAIN = deferred(  # what stands between a figure and the same figure: "fourteen watts yes fourteen"
+    rf"(?i)\s*+号?(?:\s*+(?:{_PAUSE}|(?P<yes>{_CONFIRMS})))*+\s*+(?P<head>(?:{_TOKEN}\s*+){{0,3}}?)"
 )
 _BACK = deferred(
     rf"(?i)(?:\s*+{_TOKEN}){{0,3}}?\s*+{_PAUSE}*+(?P<said>{_CORRECTS})(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}|是))*+)"
@@ -79,6 +100,8 @@ _INSTEAD = deferred(
     rf"(?i)(?:\s*{_TOKEN}){{0,3}}?\s*[,\uff0c]?\s*(?P<instead>(?:{either('figures', 'one', 'instead_of')})\s*)"
 )
 _BOUND_BEHIND = "|".join(either("figures", "bounds", name) for name in ("at_least_behind", "at_most_behind"))
+_BOUND_AHEAD = deferred(rf"(?i)(?:{any_word('figures', 'bounds', 'at_least', 'at_most')})\s*$")
+_WEIGHT_AHEAD = deferred(rf"(?i)(?:{either('figures', 'users', 'weighs')})\s*$")
 _ENDED = deferred(r"\s*(?:$|[,.;:!?)\uff0c\uff1b。、](?![0-9]))")
 _NOT_AHEAD = deferred(
     rf"(?i)(?:^|[\s,;:.\uff0c。；])(?P<denies>(?:{either('figures', 'one', 'not_who')})\s*(?:{GIVEN_TO}\s*)*)$"
@@ -93,6 +116,7 @@ what stands before, when they stand alone."""
 _GOES_ELSEWHERE = deferred(rf"(?i)\s*(?:给|对|(?!(?:{AND})\b|{_BOUND_BEHIND})[A-Za-zÀ-ÿ])")
 _ANOTHER_USER = deferred(rf"(?i){ANY_NOUN}")
 _OF_USERS = deferred(rf"{NUMBERED.pattern}|{GIVEN_TO}\s*$")
+_GIVEN_AHEAD = deferred(rf"(?i)(?:\s*{GIVEN_TO})+\s*$")
 _LIST_AHEAD = deferred(rf"(?i){_NUMBER}\s*号?\s*(?:,\s*)?(?:{_JOINT}|,)\s*(?:{GIVEN_TO}\s*)?(?:{ANY_NOUN}\s*)?$")
 _LIST_BEHIND = deferred(rf"(?i)\s*号?\s*{_JOINT}\s*(?:{GIVEN_TO}\s*)?(?:{ANY_NOUN}\s*)?{_NUMBER}")
 
@@ -106,17 +130,42 @@ def without_corrected(text: str) -> str:
     'for user 5 - 1 Mbit/s'
     """
     plain = normalise(text)
-    for start, end, instead in (*_said_again(plain), *_taken_back(plain), *_not_meant(plain), *_not_who(plain)):
-        text = written_over(text, start, end, instead)
+    done = list[tuple[int, int]]()
+    for start, end, instead in (change for rule in _RULES for change in rule(plain)):
+        if not overlaps((start, end), done):  # "14 watts uh no 13 watts": one is taken back, and not the other, too
+            text = written_over(text, start, end, instead)
+            done.append((start, end))
     left = _fillers(language_of(text)).sub(lambda match: " " * len(match[0]), text)
     return text if left.isspace() else left
 
 
 @functools.cache
 def _fillers(language: str) -> re.Pattern[str]:
-    """The sounds of a language that fill a pause and say nothing, with a comma behind."""
-    words = "|".join(table("figures", language)["one"]["fillers"])
-    return deferred(rf"(?i)(?<![A-Za-zÀ-ÿ'])(?:{words})(?![A-Za-zÀ-ÿ'])(?:\s*[,\uff0c])?")
+    """What fills a pause in a language and says nothing, with a comma behind, and the first of a word said twice."""
+    words, twice = ("|".join(table("figures", language)["one"].get(name, ["(?!)"])) for name in ("fillers", "twice"))
+    words = words.replace("{number}", WORD_NUMBER)
+    return deferred(
+        rf"(?i)(?<![A-Za-zÀ-ÿ'])(?:(?:{words})(?![A-Za-zÀ-ÿ'])(?:\s*[,\uff0c])?|(?P<twice>{twice})(?=\s+(?P=twice)(?![\w'])))"
+    )
+
+
+def _confirmed(plain: str) -> Iterator[tuple[int, int, str]]:
+    """What is only said once more, with the words that say so: "14 W, yes, 14", "fourteen, yes, fourteen watts"."""
+    for one, other in itertools.pairwise(numbers(plain)):
+        its, unit = unit_at(plain, one.end), unit_at(plain, other.end)
+        end, last = (its.end if its else one.end), (unit.end if unit else other.end)
+        again = _AGAIN.fullmatch(plain, end, other.start) if one.value == other.value is not None else None
+        if again is None or (its is not None and unit is not None and its.kind != unit.kind):
+            continue
+        head, ahead = again["head"].casefold().strip(), plain[: one.start].casefold().rstrip()
+        alone = its is not None is not unit and _GOES_ELSEWHERE.match(plain, last) is None  # "14 watts 14 watts"
+        counted = unit is None and _ANOTHER_USER.match(plain[last:].lstrip()) is not None  # "yes 2 users are out"
+        if not (again["yes"] or alone) or counted or not (ahead.endswith(head) or _ANOTHER_USER.fullmatch(head)):
+            continue
+        if its is not None or (unit is None and _OF_USERS.search(plain, 0, one.start)):
+            yield end, last, ""
+        elif unit is not None and _OF_USERS.search(plain, 0, one.start) is None:
+            yield one.start, other.start, ""
 
 
 def _said_again(plain: str) -> Iterator[tuple[int, int, str]]:
@@ -162,6 +211,17 @@ def _not_who(plain: str) -> Iterator[tuple[int, int, str]]:
             yield ahead.start("denies"), behind.end("but"), ""
 
 
+def _is_users(plain: str, number: Number, *, measured: bool) -> bool:
+    """Whether a number may be a user's; where one with a unit takes its place, only what has just been given one is."""
+    if (number.value or 0) >= MOST_USERS or is_of_each(plain, number.start):
+        return False
+    given = _GIVEN_AHEAD.search(plain, 0, number.start)
+    to_whom = given is not None and (
+        not measured or any((unit := unit_at(plain, each.end)) and unit.end == given.start() for each in numbers(plain))
+    )
+    return to_whom or NUMBERED.search(plain, 0, number.start) is not None
+
+
 def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
     """The spans of numbers in whose place the next one stands, with the words that say so, and what is to stand there.
 
@@ -177,28 +237,34 @@ def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
     for wrong, right in pairs:
         its, other = (unit_at(plain, each.end) if each.form != "times" else None for each in (wrong, right))
         said = _RETURN.fullmatch(plain, its.end if its else wrong.end, right.start)
-        if said is None or wrong.value == right.value or _LIST_AHEAD.search(plain, 0, wrong.start):
+        listed = _LIST_AHEAD.search(plain, 0, wrong.start) if other is None or not (said and said["head"]) else None
+        if said is None or wrong.value == right.value or listed is not None:
             continue
         ahead, behind = plain[: wrong.start].casefold().rstrip(), plain[other.end if other else right.end :].casefold()
         head, tail = said["head"].casefold().strip(), said["tail"].casefold().strip()
-        user = _OF_USERS.search(plain, 0, wrong.start) is not None or plain[wrong.end : wrong.end + 1] in ("号", "號")
+        user = plain[wrong.end : wrong.end + 1] in ("号", "號") or _is_users(plain, wrong, measured=other is not None)
         repeated = ahead.endswith(head) or (user and _ANOTHER_USER.fullmatch(head) is not None)
         doubled = any(map(str.isalpha, said["pause"] + said["more"]))
-        if not (doubled or said["more"]) and said["said"].casefold() in _DENIES:
-            continue  # "no service to 6, no service to 7", "con 10 W, no 20 W"
+        bounded = its is None and other is not None and not head and _BOUND_AHEAD.search(plain, 0, wrong.start)
+        if not (doubled or said["more"] or bounded) and said["said"].casefold() in _DENIES:
+            continue  # "no service to 6, no service to 7", "con 10 W, no 20 W", but "at least one no two megabits"
         if its is not None and other is None:
             value = right.value or 0
             if not head and (value != int(value) or value >= _SURELY_A_RATE) and _ENDED.match(plain, right.end):
                 unit = plain[wrong.end : said.start("back")].rstrip()
                 yield wrong.start, right.end, plain[right.start : right.end] + unit
         elif repeated and behind.lstrip().startswith(tail):
-            paused = said["pause"] or said["means"] or doubled
+            weighed = its is other is None and not user and _WEIGHT_AHEAD.search(plain, 0, wrong.start) is not None
+            paused = said["pause"] or said["means"] or doubled or (wrong.value or 0) >= MOST_USERS or weighed
             measured = other is not None and not user and (its is None or its.kind == other.kind)
             measured |= wrong.form == right.form == "times"
             if measured and its is not None and not tail:
                 # "1 Mbit/s each, rather 2 Mbit/s for user 3", "10 W, hold on, 8 W is the circuit power"
                 measured = _GOES_ELSEWHERE.match(behind) is None
             able = not user or head or (right.value or 0) < MOST_USERS
-            alike = its is other and able and paused and (head or tail or not said["means"])
+            alike = its is other and able and paused and (head or tail or weighed or not said["means"])
             if measured or (alike and _LIST_BEHIND.match(plain, right.end) is None):
                 yield wrong.start, right.start, ""
+
+
+_RULES = (_said_again, _taken_back, _confirmed, _not_meant, _not_who)

@@ -107,7 +107,7 @@ _PER_ANOTHER_TIME = deferred(
     rf"{any_word('figures', 'units', 'other_times')}\b|\s*[/每]?每(?:分钟?|小时|天|周|月)"
 )
 _OF_ANOTHER_TIME = deferred(r"每个?(?:分钟?|小时|天|周|月)[^,\uff0c。;]{0,6}$")
-_GAP = deferred(r"\s?个\s?|-|\+?\s{0,2}")
+_GAP = deferred(r"\s?个\s?|-|\+?(?: {3,}|\s{0,2})")
 
 
 def _starts(text: str, position: int) -> list[int]:
@@ -118,7 +118,7 @@ def _starts(text: str, position: int) -> list[int]:
 
 @functools.lru_cache(maxsize=512)
 def unit_at(text: str, position: int) -> Unit | None:
-    """The unit that begins at this place of a normalised text, after at most a space or a hyphen."""
+    """The unit that begins at this place of a plain text, behind a hyphen or blanks (many where words are gone)."""
     found, is_of_another_time = _found(text, position)
     if found is None:
         return _misspelt(text, _starts(text, position)[0])
