@@ -76,7 +76,7 @@ _ODDS = deferred(
     rf"(?i)(?<![\w.,]){_PART}(?:[\s-]+{_EVENT}[\s-]+of|(?:[\s-]+{_EVENT})?[\s-]+{any_word('figures', 'odds', 'among')})"
     rf"[\s-]+(?:every\s+|each\s+|je\s+)?{_WHOLE}(?![\w%]|[.,][0-9]|\s?(?:[kmM]?W|dB\w*|[kKMG]?bit\S*|[kMG]bps)\b)|"
     rf"\bjede[rsnm]?\s+(?P<ordinal>{'|'.join(_ORDINALS)})[nrsm]?\b|"
-    rf"(?P<zhwhole>{_NUMERAL})(?P<unit>次|回)(?:里|中|之中|当中)?[^,，。;；0-9一二两三四五六七八九十百千]{{0,6}}(?P<zhpart>{_NUMERAL})(?P=unit)"
+    rf"(?P<zhwhole>{_NUMERAL})(?P<unit>次|回|[个条项](?=承诺|保证|保障))(?:里|中|之中|当中)?[^,，。;；0-9一二两三四五六七八九十百千]{{0,6}}(?P<zhpart>{_NUMERAL})(?P=unit)"
 )
 
 _HOW_MANY = cardinals(2, 7)
