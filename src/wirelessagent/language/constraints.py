@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from wirelessagent.language.comparators import WITH
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
 from wirelessagent.language.judged import Judged
-from wirelessagent.language.mentions import ARTICLES, GIVEN_TO, WITHOUT, Mention, Role
+from wirelessagent.language.mentions import ARTICLES, EXCEPTED, WITHOUT, Mention, Role
 from wirelessagent.language.moods import lifted_in, may_be_lifted
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
@@ -35,7 +35,6 @@ _GIVEN_ALIKE = Beside(
         rf"(?=\s*(?:$|[,.;:!?)\uff0c。；、]|(?:{AND})\b))"
     ),
 )
-_EXCEPTED = deferred(rf"(?i)(?:{either('figures', 'users', 'excepted')})\s*(?:{GIVEN_TO}\s*)*(?:l')?$")
 _FREE = deferred(
     rf"(?i)\s*号?\s*[,(\uff0c]\s*[^,;.()\uff0c；。]*?(?:{either('figures', 'users', 'free')})[^,;.()\uff0c；。]*"
 )
@@ -185,20 +184,30 @@ class Allotments:
             return "exempt" if WITHOUT.search(self._plain[slice(*self._clause_of(mention))]) else "unclear"
         sure = _SURE_OF_SILENCE if role in _SILENT else _SURE_OF_A_ROLE  # nobody is to be dropped unheard
         unsaid = role == "leave_out" and _LEAVING.search(self._plain) is None  # "user 3 has priority"
-        if role == "given" or (chances[role] > sure and said[role] > _SAID and not unsaid):
+        if role == "given" or (role != "unclear" and chances[role] > sure and said[role] > _SAID and not unsaid):
             return role
-        return "unclear" if mention.role == "named" and chances["given"] < _SURE_OF_NO_ROLE else "given"
+        if mention.role != "named" or chances["given"] >= _SURE_OF_NO_ROLE:
+            return "given"
+        rated = self._has_figures(*self._clause_of(mention), kind="rate")
+        return "exempt" if rated and self._is_out_of_all(mention) else "unclear"
+
+    def _is_out_of_all(self, mention: Mention) -> bool:
+        """Whether somebody is excepted from everybody, in one clause."""
+        start, end = self._clause_of(mention)
+        everybody = any(each.role == "everybody" and start <= each.start < end for each in self._found)
+        return everybody and EXCEPTED.search(self._plain, start, mention.start) is not None
 
     def _goes_without(self, mention: Mention) -> frozenset[str]:
         """The limits that are lifted where all that is said of somebody lifts them: "user 6 no guarantee"."""
         start, end = self._clause_of(mention)
-        lifted = frozenset[str](() if self._has_figures(start, end) else lifted_in(self._plain[start:end]))
+        none = self._has_figures(start, end) or self._is_out_of_all(mention)  # "lift the least rate of all but user 3"
+        lifted = frozenset[str](() if none else lifted_in(self._plain[start:end]))
         return lifted if lifted <= {*_RATES, "all", "ceilings"} else frozenset()
 
     def _is_free(self, mention: Mention) -> bool:
         """Whether somebody is excepted and said to go without, in words that wish for nothing else."""
         free = _FREE.match(self._plain, mention.end)
-        if free is None or self._has_figures(*free.span()) or not _EXCEPTED.search(self._plain, 0, mention.start):
+        if free is None or self._has_figures(*free.span()) or not EXCEPTED.search(self._plain, 0, mention.start):
             return False
         self.spans.append(free.span())
         return True
@@ -211,8 +220,8 @@ class Allotments:
     def _clause_of(self, mention: Mention) -> Span:
         return clause_start(self._plain, mention.start), clause_end(self._plain, mention.end)
 
-    def _has_figures(self, start: int, end: int) -> bool:
-        return any(start <= figure.start < end for figure in self._judged.figures)
+    def _has_figures(self, start: int, end: int, kind: str = "") -> bool:
+        return any(start <= figure.start < end and kind in ("", figure.kind) for figure in self._judged.figures)
 
     def _one_for_each(self) -> Iterator[tuple[int, Target]]:
         """The figures of lists as long as a list of users, one for each: "users 1 and 4 get 2 and 3 Mbit/s"."""
@@ -265,7 +274,8 @@ class Allotments:
                 self.spans.append((target.mention.start, target.mention.end))
         if target.role == "others":
             self._of_others.add(name)
-        for key in target.keys:
+        cell = {*self._judged.users_of_the_cell}
+        for key in (EVERYBODY,) if cell and cell <= {*target.users} else target.keys:  # "users 1 to 8 …"
             earlier = self._given[name].get(key)
             if earlier is not None and earlier.value != figure.value:
                 return earlier.text

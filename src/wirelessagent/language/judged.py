@@ -11,13 +11,13 @@ import math
 from collections.abc import Mapping, Sequence
 
 from wirelessagent.language.figure_roles import answers, likely, shipped_roles
-from wirelessagent.language.mentions import GIVEN_TO, JOINT_WORDS, Mention
+from wirelessagent.language.mentions import EXCEPTED, GIVEN_TO, JOINT_WORDS, WHO, Mention
 from wirelessagent.language.number_roles import ITEMS, Numbers, everybody_named, jointly, moved, runs, series, shares
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.request import numbered
 from wirelessagent.language.stated import CARRIERS, Beside, shares_power
-from wirelessagent.language.text import Span
+from wirelessagent.language.text import Span, clause_start
 from wirelessagent.language.word_tables import any_word, deferred, either
 
 # The share of those who have a rate or a weight, among all users named and among those of each role.
@@ -34,7 +34,9 @@ _HEADS = {
 }
 """What may stand ahead of the first of a series, "floors in Mbit/s: u1 0.5, u2 0.75", or behind its last, "as caps"."""
 _UNBOUND = deferred(rf"(?i)\s*(?:$|[^\w\s]|{GIVEN_TO}|{JOINT_WORDS}|{_AS})")
-_WHO = deferred(rf"(?i)\s*,?\s*(?:{either('figures', 'users', 'relative')})[^,;.\uff0c；。]*")
+_GOES_ON = deferred(rf"(?i)\s*[,)\uff0c]\s*(?:{either('figures', 'users', 'takes')})")
+_WEIGHS = deferred(rf"(?i){either('figures', 'users', 'weighs')}")
+_COMPARED = deferred(rf"(?i)(?:{either('figures', 'users', 'compared')})\s*(?:{GIVEN_TO}\s*)*$")
 _CEILINGS = ("max_power_w", "subcarrier_max_power_w")
 _BOUNDED = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
 _ONCE, _MOST_POWERS, _HARDLY = ("max_power_w", "circuit_power_w", "subcarrier_max_power_w"), 4, 0.01
@@ -74,12 +76,25 @@ class Judged:
 
     def _owners_of(self, start: int) -> Mapping[Mention | None, float]:
         named = [each for each in self.mentions if each.role == "named" and each.end <= start]
-        others = any(named[-1].end <= each.start < start for each in self.mentions) if named else True
-        if not others and _WHO.fullmatch(self._look.plain, named[-1].end, start):
+        between = [each for each in self.mentions if each.role != "pronoun" and each.start < start]
+        others = not named or between[-1] != named[-1]
+        if not others and WHO.fullmatch(self._look.plain, named[-1].end, start):
             return {named[-1]: 1.0}  # "except user 5, who needs 1 Mbit/s"
-        everyone = [*self.mentions, None]
+        everyone = [*(each for each in self.mentions if not self._is_aside(each, start)), None]
         seen = self.view.owners(start, everyone)
         return likely([shipped_roles().scores("link", features)[0] for features in seen], everyone)
+
+    def _is_aside(self, mention: Mention, start: int) -> bool:
+        """Whether what begins here is not said of somebody whom it passes: of those that others are compared with.
+
+        "User 5 counts twice as much as the others and gets …", "all but user 5, who needs 1 Mbit/s, get …".
+        """
+        plain, who = self._look.plain, WHO.match(self._look.plain, mention.end)
+        if who and who.end() <= start and _GOES_ON.match(plain, who.end()):
+            return EXCEPTED.search(plain, 0, mention.start) is not None
+        ahead = clause_start(plain, mention.start)
+        weighs = mention.role == "others" and _WEIGHS.search(plain, ahead, mention.start)
+        return bool(weighs and _COMPARED.search(plain, ahead, mention.start))
 
     def figure(self, index: int) -> Mapping[str, float]:
         """How likely a power, a rate or a ratio has each role."""

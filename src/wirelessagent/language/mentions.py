@@ -104,6 +104,7 @@ BY_PLACE = Phrases(
                 f"(?P<{name}>{either('figures', 'users', name, **PLACED)})"
                 for name in ("odd", "even", "nth", "from_here", "past", "up_to", "before")
             ),
+            *(f"(?P<{name}_>{either('figures', 'users', f'{name}_too')})" for name in ("odd", "even")),
             *(
                 rf"(?:{end}\s+(?P<{name}>{_FEW})|\b(?P<{name}_>{_FEW})\s+{end})\s+{NOUN}(?![A-Za-z])|"
                 rf"{end}\s*(?P<{name}__>[0-9]{{1,2}}|[一二两三四五六七八九十])\s*[个位名]\s*{ZH_NOUN}|"
@@ -115,6 +116,8 @@ BY_PLACE = Phrases(
     )
 )
 """Users by where they stand among all; which ones they are, the cell's size says."""
+_TOO = {"odd_": "even", "even_": "odd"}
+"""Odd or even ones that only others make users: "odd users at most 2 Mbit/s, even at most 1"."""
 JOINT = deferred(
     rf"(?i)\s*(?:,|、|\uff0c|&|/|和|与|跟|及|以及|{JOINT_WORDS}|\s)+\s*(?:(?:also|{ARTICLES})\s+)?(?:l'|à\s+l')?"
 )
@@ -122,15 +125,31 @@ LISTED = deferred(  # between the figures of a list
     rf"(?i)\s*(?:[,;、\uff0c]|{JOINT.pattern.removeprefix('(?i)')}|,?\s*(?:and then|beziehungsweise|bzw\.?|"
     r"respectively))\s*"
 )
-_OUT_OF, _RANGED, _INCLUDED = (f"(?:{either('figures', 'users', name)})" for name in ("out_of", "ranged", "included"))
-_OUT_OF_THOSE, _RANGED_AHEAD = deferred(rf"(?i)\s*{_OUT_OF}'?\s*"), deferred(rf"(?i){_RANGED}'?\s*$")
+_OUT_OF, _AMONG, _RANGED, _INCLUDED, _EXCEPT, _BUT, _EXCEPTED_BEHIND = (
+    f"(?:{either('figures', 'users', name)})"
+    for name in ("out_of", "among", "ranged", "included", "excepted", "but", "excepted_behind")
+)
+_OUT_OF_THOSE, _RANGED_AHEAD = deferred(rf"(?i)\s*(?:{_OUT_OF}|{_AMONG})'?\s*"), deferred(rf"(?i){_RANGED}'?\s*$")
+_FROM_ONE_TO = deferred(rf"(?i)\s*(?!{_OUT_OF}){_AMONG}")
+EXCEPTED = deferred(rf"(?i)(?:{_EXCEPT}|{_BUT})\s*(?:{GIVEN_TO}\s*)*(?:l')?$")
+_ONE, _OTHER = (
+    rf"\s*(?:{GIVEN_TO}\s*)*(?:l')?(?:{ANY_NOUN}\s*)?(?:{_NO}\s*)?(?P<{name}>{_LIST}|{_ZH_LIST})\s*号?"
+    for name in ("one", "other")
+)
+_BUT_FOR = deferred(rf"(?i)\s*号?\s*[,(\uff0c]?\s*(?:(?:{_EXCEPT}){_ONE}|{_OTHER}\s*{_EXCEPTED_BEHIND})\s*(?:外|\))?")
+_ALL_BUT = deferred(rf"(?i)(?:{_EXCEPT})(?P<other>){_ONE}(?:以?外|之外)?\s*[,\uff0c的]?\s*(?:{GIVEN_TO}\s*)*$")
+WHO = deferred(
+    rf"(?i)\s*(?:{_EXCEPTED_BEHIND})?\s*[,(\uff0c]?\s*(?:{either('figures', 'users', 'relative')})[^,;.()\uff0c；。]*"
+)
+"""What more is said of somebody excepted: "all but user 5, who needs 1 Mbit/s, …"."""
 _NOBODY = Phrases(either("figures", "users", "nobody"))
 _INCLUSIVE = deferred(rf"(?i)(?:\s*[,(\uff0c]?\s*{_INCLUDED}\s*\)?,?)?\s*")
+_BEFORE_EACH = deferred(rf"{_INCLUSIVE.pattern},?\s*(?:(?:{either('figures', 'users', 'takes')})\s+)?")
 _EACH_OF = deferred(rf"(?i)(?:{either('figures', 'users', 'each_of')})\s*{ANY_NOUN}?\s*(?:from|de|von|entre)?\s*$")
 _LONGEST_RANGE, _NEAR, MOST_USERS, _FAR_OFF = 100, 25, 100, 5
 """How many users a range may have, how near what leaves out stands, and from where on a number behind users that is so
 many times theirs is none."""
-_UP_TO = deferred(rf"(?i)\s*号?(?:{_TO}(?:l')?|\s*[到至]\s*)")
+_UP_TO = deferred(rf"(?i)\s*号?(?:{_TO}(?:l')?(?:{_NO}\s*)?|\s*[到至]\s*)")
 _ITEM = deferred(rf"(?i)[0-9]+|\b{_ORDINAL}\b|\b{WORD_NUMBER}\b|[一二三四五六七八九十]+")
 _AND_BETWEEN = deferred(r"(?i)[a-z和与跟及&/、]")
 _LAST_COMMA = deferred(rf"(?i)\s*[,\uff0c]\s*(?:(?:{AND}|e)\s+)?(?=[^,\uff0c]*$)")
@@ -183,8 +202,11 @@ def _by_place(plain: str, count: int) -> Iterator[Mention]:
 
     Most need to be counted.
     """
-    for match in BY_PLACE.finditer(plain):
+    matches = list(BY_PLACE.finditer(plain))
+    for match in matches:
         group, words = next((name, words) for name, words in match.groupdict().items() if words)
+        if group in _TOO and not any(other[_TOO[group]] for other in matches):
+            continue
         said = [number for part in _ITEM.finditer(words) if (number := _number(part.group())) is not None]
         number = max(said, default=2)
         first, last, step = {
@@ -292,7 +314,28 @@ def merged(plain: str, found: Sequence[Mention]) -> list[Mention]:
         else:
             users = tuple(dict.fromkeys([*last.users, *between, *mention.users]))
             merged[-1] = Mention(role="named", users=users, start=last.start, end=mention.end)
-    return _distributed(plain, [part for mention in merged for part in _parted(plain, mention)])
+    return _but_for(plain, _distributed(plain, [part for mention in merged for part in _parted(plain, mention)]))
+
+
+def _but_for(plain: str, found: Sequence[Mention]) -> list[Mention]:
+    """Groups without those of them who are excepted, who are mentioned still where more is said of them.
+
+    "users 1 to 6 except user 3", "双号用户(4号除外)", "users 1 to 6 except user 3, who …".
+    """
+    kept: list[Mention] = []
+    for each in found:
+        if kept and each.start < kept[-1].end:  # "odd users other than 7"
+            continue
+        behind = _BUT_FOR.match(plain, each.end) if len(each.users) > 1 else None
+        said = behind or (_ALL_BUT.search(plain, 0, each.start) if len(each.users) > 1 else None)
+        without = _listed(said["one"] or said["other"]) if said and unit_at(plain, said.end()) is None else ()
+        if said and without and {*without} < {*each.users}:
+            users = tuple(user for user in each.users if user not in without)
+            end = each.end if WHO.match(plain, said.end()) else max(each.end, said.end())
+            each = replace(each, users=users, start=min(each.start, said.start()), end=end)
+            kept = [other for other in kept if other.end <= each.start]
+        kept.append(each)
+    return kept
 
 
 def _distributed(plain: str, found: Sequence[Mention]) -> list[Mention]:
@@ -304,7 +347,7 @@ def _distributed(plain: str, found: Sequence[Mention]) -> list[Mention]:
     for mention in found:
         last, between = (kept[-1], plain[kept[-1].end : mention.start]) if kept else (mention, ".")
         several = len(last.users) > 1 and _INCLUSIVE.fullmatch(between) is not None
-        ranged = several and _RANGED_AHEAD.search(plain, 0, last.start) is not None
+        ranged = len(last.users) > 1 and _BEFORE_EACH.fullmatch(between) and _RANGED_AHEAD.search(plain, 0, last.start)
         again = {*mention.users} < {*last.users} and bool(between.strip(" ,("))  # "users 2 to 5 (5 included)"
         if (mention.role in ("everybody", "pronoun") and ranged) or (again and several):
             kept[-1] = replace(last, end=mention.end)
@@ -315,6 +358,8 @@ def _distributed(plain: str, found: Sequence[Mention]) -> list[Mention]:
             if denied or _OUT_OF_THOSE.fullmatch(plain, each.end, mention.start) is None:
                 break
             mention = replace(mention, start=kept.pop().start)
+            if len(mention.users) == 2 and _FROM_ONE_TO.match(plain, each.end):  # "everybody between user 2 and user 5"
+                mention = replace(mention, users=_listed(" to ".join(mention.users)))
         kept.append(mention)
     return kept
 

@@ -28,7 +28,7 @@ from wirelessagent.language.sentence import BUILT_IN, Sentence, labels_of, own_w
 from wirelessagent.language.stated import unread
 from wirelessagent.language.text import normalise
 from wirelessagent.language.topics import about, details_of
-from wirelessagent.language.vocabulary import OwnWords, language_in_a_talk
+from wirelessagent.language.vocabulary import MASK, OwnWords, language_in_a_talk
 from wirelessagent.language.word_tables import deferred, either, words_of
 
 _AGREED, _ENOUGH, _AGAINST = 0.4, 0.7, 0.9
@@ -140,7 +140,8 @@ def _kind(sentence: Sentence, kinds: Mapping[str, tuple[float, str]], objective:
     other = max(_OTHER_KINDS, key=lambda kind: kinds[kind][0])
     if moods.is_a_program(sentence.text):
         return "out_of_scope"
-    sign = len(sentence.units) == 1 and len(sentence.units[0].word) == 1  # a letter, a Chinese character
+    words = [unit.word for unit in sentence.units]
+    sign = len(words) == 1 and len(words[0]) == 1 and words[0] != MASK  # a letter, a Chinese character
     if sign or not sentence.worded:
         return "clarify"
     if kinds[other][0] >= share:

@@ -72,7 +72,7 @@ far the words for that reach."""
 _NUMERAL = "[0-9一二两三四五六七八九十百千]+"
 _ODDS = deferred(
     rf"(?i)\bjede[rsnm]?\s+(?P<ordinal>{'|'.join(_ORDINALS)})[nrsm]?\b|"
-    rf"(?P<zhwhole>{_NUMERAL})(?P<unit>次|回)(?:里|中|之中|当中)?[^,，。;；0-9一二两三四五六七八九十百千]{{0,6}}(?P<zhpart>{_NUMERAL})(?P=unit)"
+    rf"(?P<zhwhole>{_NUMERAL})(?P<unit>次|回|[个条项](?=承诺|保证|保障))(?:里|中|之中|当中)?[^,，。;；0-9一二两三四五六七八九十百千]{{0,6}}(?P<zhpart>{_NUMERAL})(?P=unit)"
 )
 
 _HOW_MANY = cardinals(2, 7)

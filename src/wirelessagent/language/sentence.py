@@ -62,8 +62,9 @@ class Sentence:
 
     @property
     def worded(self) -> bool:
-        """Whether any known word stands beside the figures, units of measure and single letters being none."""
-        return bool(self.found) or any(map(self._is_known, self.units))
+        """Whether any known word stands beside figures and users, units of measure and single letters being none."""
+        beside = units_of(respelt(self.plain), [(start, end) for start, end, _ in self._marked])
+        return bool(self.found) or any(map(self._is_known, (*self.units, *beside)))
 
     def _is_known(self, unit: Unit) -> bool:
         if len(unit.word) == 1 and not is_chinese(unit.word):

@@ -37,6 +37,7 @@ _LESS_THAN = deferred(rf"(?i)\s*(?:{_BELOW})(?:\s*{_BETWEEN})+\s*")
 _TAKEN_OFF = deferred(rf"(?i)\s*{_MINUS}\s*")
 _PURPOSE = deferred(rf"(?i)\s*(?:{GIVEN_TO}|{_OF}|{_PURPOSES})")
 _JOINED = deferred(rf"(?i)\s*{_OF}{_WHOSE}")
+_ALL_THERE_IS = deferred(rf"(?i)\s*,?\s*(?:{either('figures', 'shares_of', 'all_there_is')})")
 _BEHIND = deferred(rf"\s*{_INSIDE}\s*")
 _ARTICLE = deferred(rf"(?i)\b{any_word('figures', 'users', 'articles')}\s+$")
 _ALL_OF = deferred(rf"(?i)(?:^|[,;:.(\uff0c；：。])\s*(?P<of>{_OF}{_WHOSE})$")
@@ -55,6 +56,10 @@ _OF_POWER_AHEAD = deferred(rf"{_POWER_AHEAD}\s*$")
 _AGAIN = deferred(rf"(?i)[^,;.]*\b(?:{any_word('figures', 'shares_of', 'again')})\b")
 _CHANGED = deferred(rf"(?i)\s*(?:(?P<more>{_MORE})|(?P<less>{_LESS}))(?:\s+{_THAN})?")
 _CHANGED_AHEAD = deferred(rf"(?:(?P<more>{_MORE_AHEAD})|(?P<less>{_LESS_AHEAD}))\s*$")
+_MORE_THAN_IT = deferred(
+    rf"(?i)\s*(?:(?P<more>{_MORE})|(?P<less>{_LESS}))\s+{any_word('figures', 'shares_of', 'than_it')}(?!\w)"
+)
+_THAN_IT_AHEAD = deferred(rf"(?:{either('figures', 'shares_of', 'than_it_ahead')}){_CHANGED_AHEAD.pattern}")
 _COUNTS = deferred(rf"(?i)\b{any_word('figures', 'users', 'weighs')}\b(?!\s+on\b)|{_WEIGHED}")
 _NO_SHARE = words_of("figures", "shares_of", "no_share")
 _RARELY, _USUALLY = 0.1, 0.9
@@ -79,7 +84,9 @@ def worked_out(text: str) -> str:
     for start, end, instead in _come_to(normalise(text)):
         article = _ARTICLE.search(text, 0, start)
         start = article.start() if article and instead.endswith(("W", "bps")) else start
-        if len(instead) <= end - start:
+        room = end - start - text[start - 1 : start].isdigit()
+        instead = instead if len(instead) <= room else instead.removesuffix("bps")  # "600k", as Chinese writes it
+        if len(instead) <= room:
             text = written_over(text, start, end, instead)
     return text
 
@@ -88,6 +95,12 @@ def _come_to(plain: str) -> Iterator[tuple[int, int, str]]:
     """The spans of shares, each with its figure where that is only what it is a share of, and what they come to."""
     figures = list(_figures(plain))
     for one, other in itertools.pairwise(figures):
+        than, apart = _MORE_THAN_IT.match(plain, other.end), _THAN_IT_AHEAD.search(plain, one.end, other.start)
+        changed = than or apart  # "user 4 100 kbit/s more than that", 用户4比这多100k
+        if changed and one.kind == other.kind and (changed["more"] or other.value < one.value):
+            start, end = (other.start, than.end()) if than else (changed.start(), other.end)
+            yield start, end, _written(one, 1 + (1 if changed["more"] else -1) * other.value / one.value)
+            continue
         below, off = (pattern.fullmatch(plain, one.end, other.start) for pattern in (_LESS_THAN, _TAKEN_OFF))
         less, most = (other, one) if off else (one, other)
         able = one.kind == other.kind and less.value < most.value and (below or off)
@@ -107,7 +120,8 @@ def _come_to(plain: str) -> Iterator[tuple[int, int, str]]:
         if _counts(plain, share.start):  # "counts 50 % more"
             yield from _weighed(plain, share)
         elif behind and _is_part(share) and _JOINED.fullmatch(plain, share.end, behind[0].start):  # "80 % of 25 W"
-            yield share.start, behind[0].end, _written(behind[0], share.value)
+            whole = _ALL_THERE_IS.match(plain, behind[0].end)
+            yield share.start, whole.end() if whole else behind[0].end, _written(behind[0], share.value)
         elif base is not None and -1 < share.value < 0 and not plain[base.end : share.start].strip():
             yield base.start, share.end, _written(base, 1 + share.value)  # "10 W minus 10 %"
         elif base is not None and share.value > 0:
