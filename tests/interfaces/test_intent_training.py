@@ -124,7 +124,7 @@ def test_no_long_sentence_of_the_test_sets_is_drawn(drawn: list[tuple[str, str]]
 
 def test_no_sentence_of_the_test_sets_was_written_for_training(tested: set[str]) -> None:
     by_name = (unmarked(line)[0] for path in NAMED.glob("*.txt") for line in path.read_text("utf-8").splitlines())
-    in_talks = (text for _, _, lines, _ in talk_notation.talks() for text, _ in lines)
+    in_talks = (text for _, lines, _ in talk_notation.talks() for text, _ in lines)
     written = [*(each.text for each in spoken()), *(text for text, _ in meant.sentences()), *by_name, *in_talks]
     assert len(written) > 30_000
     assert [text for text in written if letters(text) in tested] == []
@@ -338,11 +338,11 @@ def test_a_talk_is_an_example_a_line_with_what_it_comes_to(tmp_path: Path) -> No
 
 def test_a_model_of_talks_learns_what_it_is_shown_and_is_the_same_each_time(tmp_path: Path) -> None:
     (tmp_path / "one.txt").write_text(SAID, "utf-8")
-    said = [talks.parsed(each, bool) for each in talk_notation.examples(tmp_path)]
+    said = [talks.parsed(each) for each in talk_notation.examples(tmp_path)]
     model, again = (talks.trained(said) for _ in range(2))
     assert (model.weights == again.weights).all()
     for example in talk_notation.examples(tmp_path):
         line = Line.of(example.text, example.context)
         possible = Possible(Anchored.of(example.text, "en", talk_notation.USERS), example.context)
         read = Read.of(read_as_a_sentence(example.text, example.context, OfflineRecogniser()), possible)
-        assert weigh(Signs(line, possible, read, "en", bool), model).said == (example.supposed, example.effect)
+        assert weigh(Signs(line, possible, read, "en"), model).said == (example.supposed, example.effect)

@@ -57,14 +57,14 @@ _COUNTED = deferred(rf"(?i)\s+(?:of\s+(?:the|our|my)\s+)?(?:{USER_NOUN}|people|p
 
 # Odds, "one miss in twenty", 十次里有九次, and reliabilities, "five nines", 四个九.
 _ONCE = {**listed("once", "odds"), **{f"{word}mal": count for word, count in cardinals(2, 9, ("de",)).items()}}
-_ARTICLES = listed("part", "odds")
+_A_SINGLE = listed("part", "odds")
 _ORDINALS = listed("ordinal", "odds")
 _EVENT, _AMONG = f"{any_word('figures', 'odds', 'events')}s?", any_word("figures", "odds", "among")
 _AMONG_AHEAD = deferred(
     rf"(?i)[\s-]+(?:(?P<event>{_EVENT})[\s-]+(?:of|{_AMONG})|{_AMONG})[\s-]+(?:(?:every|each|je|an?)\s+)?$"
 )
 _PART_AHEAD = deferred(
-    rf"(?i)(?<![\w.,-])(?:(?P<once>{'|'.join(sorted(_ONCE, key=len, reverse=True))})|{'|'.join(_ARTICLES)})$"
+    rf"(?i)(?<![\w.,-])(?:(?P<once>{'|'.join(sorted(_ONCE, key=len, reverse=True))})|{'|'.join(_A_SINGLE)})$"
 )
 _ROUND, _FEWEST, _NEAR = (10, 20, 25, 40, 50, 100, 200, 500, 1000), 10, 40
 """Of how many parts a share is said by no more than a word for "of", and of how many at least by what happens; how

@@ -9,7 +9,7 @@ from __future__ import annotations
 import functools
 import itertools
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -98,7 +98,7 @@ def _effect(acts: Sequence[Act], possible: Possible) -> Effect | None:
     return None if too_many or not acts else possible.effect(acts)
 
 
-BUCKETS, WORDS = 1 << 20, 1 << 18
+BUCKETS = 1 << 20
 Places = npt.NDArray[np.int64]
 
 RELATIONS = ("none", "equal", "part", "more", "other", "apart", "nothing")
@@ -143,15 +143,12 @@ SUPPOSED = Change(acts=(), effect=frozenset(), form="suppose")
 
 
 class Signs:
-    """The signs of the changes that one line may mean; words that no talk was taught with are strange."""
+    """The signs of the changes that one line may mean."""
 
-    def __init__(
-        self, line: Line, possible: Possible, read: Read, language: str, is_known: Callable[[str], bool]
-    ) -> None:
+    def __init__(self, line: Line, possible: Possible, read: Read, language: str) -> None:
         self._line, self._possible, self._read, self.anchored = line, possible, read, possible.line
         self._order, self._kinds, self._roles = line.sentence.chances.order, line.sentence.chances.kinds, _roles(line)
         words = self.anchored.words
-        self._strange = min(sum(not is_known(word) for word in words), _MOST)
         bases = [f"B{word}" for word in based(words, language)]
         pairs = [f"{a} {b}" for a, b in itertools.pairwise(["<", *words, ">"])]
         pairs += [f"B{a} {b}" for a, b in itertools.pairwise(bases)]
@@ -196,7 +193,6 @@ class Signs:
         yield from (f"q:{asked}", f"o:{order}", f"o:{order}:q:{asked}")
         yield f"top:{max(kinds, key=lambda kind: kinds[kind])}"
         yield f"length:{min(len(self.anchored.words) // 3, 8)}"
-        yield f"strange:{self._strange}"
         yield f"aims:{level(max(kinds[aim] for aim in BUILT_IN))}"
         yield f"read:{self._read.kind}:{self._read.topic}"
         yield f"figures:{len(self.anchored.figures)}"
@@ -230,10 +226,6 @@ class Signs:
         others = "+".join(sorted(anchor.kind for anchor in left))
         yield from (form, kind, whole, f"{whole}:{said}", f"left:{others}|{form}", f"left:{others}|{whole}")
         yield f"left:{len(left)}|{form}:{change.source}"
-        yield from (
-            f"strange:{self._strange}|{form}",
-            f"strange:{self._strange}:{len(self.anchored.words) // 3}|{form}",
-        )
         yield from self._around_the_figure(change, form, kind, said)
         yield from self._around_the_users(change, form, kind)
         yield from self._by_roles(change, left, form, kind, whole)

@@ -24,13 +24,14 @@ from wirelessagent.language.conversation.anchors import Anchor, Anchored
 from wirelessagent.language.conversation.answers import speaks_of_applying
 from wirelessagent.language.conversation.line import NAME, Line, is_all
 from wirelessagent.language.conversation.possible import Change, Effect, Possible
-from wirelessagent.language.conversation.signs import WORDS, Read, Signs, block_places, place_of
+from wirelessagent.language.conversation.signs import Read, Signs, block_places, place_of
 from wirelessagent.language.guard import asking_whether, guarded, stranger
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.moods import classes_in, is_denied, lifted_in, may_be_lifted
 from wirelessagent.language.offline import NAME as OFFLINE
 from wirelessagent.language.request import changed, constraints_of
-from wirelessagent.language.text import Span, hashed, overlaps
+from wirelessagent.language.sentence import BUILT_IN
+from wirelessagent.language.text import Span, overlaps
 
 TALKS_FILE = Path(__file__).parent.parent / "talks.npz"
 BLOCK, OWN = 1.0, 0.25
@@ -61,29 +62,19 @@ class Meaning:
 
 @dataclass(frozen=True, kw_only=True)
 class TalkModel:
-    """Weights of signs, as int8 with their ``scale``, and of what changes are together; the words that were taught.
-
-    These are one bit each, of ``WORDS``.
-    """
+    """Weights of signs, as int8 with their ``scale``, and of what changes are together."""
 
     weights: npt.NDArray[np.int8]
     scale: float
     together: npt.NDArray[np.float32]
-    words: npt.NDArray[np.uint8]
 
     @classmethod
     def load(cls, path: Path) -> TalkModel:
         with np.load(path) as arrays:
-            scale = float(arrays["scale"])
-            return cls(weights=arrays["weights"], scale=scale, together=arrays["together"], words=arrays["words"])
+            return cls(weights=arrays["weights"], scale=float(arrays["scale"]), together=arrays["together"])
 
     def save(self, path: Path) -> None:
-        np.savez_compressed(path, weights=self.weights, scale=self.scale, together=self.together, words=self.words)
-
-    def knows(self, word: str) -> bool:
-        """Whether talks were taught with a word."""
-        place = hashed(word) % WORDS
-        return bool(self.words[place >> 3] >> (place & 7) & 1)
+        np.savez_compressed(path, weights=self.weights, scale=self.scale, together=self.together)
 
     def scores(self, signs: Signs, changes: Sequence[Change]) -> npt.NDArray[np.float64]:
         """How strongly the signs speak for each change."""
@@ -222,7 +213,7 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     read = Read.of(intent, possible)
     if read.acts and not read.effect and changed(possible.figures, read.acts) != possible.figures:
         return intent, False  # it shows only later, such as a promise to a user who is left out
-    found = weigh(Signs(line, possible, read, line.voice.language, shipped_talk_model().knows))
+    found = weigh(Signs(line, possible, read, line.voice.language))
     heard: Said = (read.supposes and bool(read.effect), read.effect or frozenset())
     if any(isinstance(getattr(act, "whom", None), Named) for act in found.acts) and stranger(line.text, context):
         return intent, False  # who is that?
@@ -313,8 +304,8 @@ def _stands(line: Line, intent: Intent) -> bool:
     """Whether what is read of a line is not weighed.
 
     That is a line of closed words, a command, what names a method, a question of a certain thing, what a language model
-    read, an answer to a question that holds something, a figure that can't be or that no limit holds, and words on
-    applying a plan that waits ("apply it at 6 pm").
+    read, an answer to a question that holds something, a figure that can't be or that no limit holds or that its
+    reader doubts beside an aim, and words on applying a plan that waits ("apply it at 6 pm").
     """
     context, another = line.context, intent.recogniser not in (OFFLINE, NAME)
     about_the_plan = context.awaits == "confirmation" and speaks_of_applying(line.text)
@@ -328,7 +319,9 @@ def _stands(line: Line, intent: Intent) -> bool:
         question = context.question
         answers = context.awaits == "clarification" and question.guess is None
         answers &= bool(question.pending or (question.users and not line.figures))
-        return answers or (intent.asks in _CERTAIN and not _is_taken_off(line))
+        aims = max(line.sentence.chances.kinds[aim] for aim in BUILT_IN) > AGREED
+        certain = intent.asks in _CERTAIN or bool(intent.asks and aims and line.figures)  # of a request of its own
+        return answers or (certain and not _is_taken_off(line))
     answers_nothing = intent.topic in ("confirm", "reject") and context.awaits == "nothing"
     commands = intent.kind == "command" and intent.topic != "undo" and not answers_nothing and intent.confidence > SURE
     return intent.recogniser == NAME or commands

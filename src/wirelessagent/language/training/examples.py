@@ -358,7 +358,7 @@ def framed() -> Iterator[tuple[str, bool, str]]:
 
 def in_talks() -> Iterator[tuple[str, bool]]:
     """Every other line of the talks, where it is long enough, and whether it changes something."""
-    said = itertools.chain.from_iterable(lines for _, _, lines, _ in talks())
+    said = itertools.chain.from_iterable(lines for _, lines, _ in talks())
     for text, does in itertools.islice(said, 0, None, 2):
         if _LINE.search(text):
             yield text, not does.startswith(("nothing", "ask", "suppose"))

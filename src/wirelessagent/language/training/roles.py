@@ -164,7 +164,7 @@ def _without_names() -> Iterator[str]:
     wordless = (each for each in spoken() if each.constraints is None)
     yield from (each.text for each in wordless if each.label in OBJECTIVES or each.label.startswith("command"))
     yield from (text for text, *_ in itertools.islice(framed(), 0, None, FILLED))
-    yield from (text for _, _, lines, _ in talks() for text, does in lines[::_OF_TALKS] if does != "nothing")
+    yield from (text for _, lines, _ in talks() for text, does in lines[::_OF_TALKS] if does != "nothing")
 
 
 _RIDGE = 1e-6

@@ -54,7 +54,6 @@ class Example:
         effect: what it does to the request, or would do where it is only ``supposed``.
         undoes: whether it takes changes back and does nothing else.
         may_suppose: whether one that does nothing may suppose something that is not written down.
-        author: whose talk it is in, as the name of a file.
     """
 
     text: str
@@ -63,7 +62,6 @@ class Example:
     undoes: bool
     supposed: bool
     may_suppose: bool
-    author: str
 
 
 @dataclass
@@ -71,7 +69,6 @@ class _Talk:
     """A talk as far as it has come, with everything that was said understood."""
 
     language: str
-    author: str
     request: Request | None = None
     past: list[Request | None] = field(default_factory=list[Request | None])
     acts: tuple[Act, ...] = ()
@@ -104,7 +101,6 @@ class _Talk:
             example = Example(
                 text=text, context=context, effect=effect, supposed=supposed,
                 may_suppose=self.may_suppose and not effect, undoes=[type(act) for act in acts] == [Undo],
-                author=self.author,
             )  # fmt: skip
         self.supposed = tuple(acts) if supposed else ()
         self._took(text, () if supposed else acts, before if supposed else after, supposes=supposed)
@@ -224,10 +220,10 @@ def _scaled(kind: str, figure: float, whom: Whom, own: Mapping[str, float], *, a
         yield Limit(kind=kind, value=held + figure if adds else held * figure, whom=each)
 
 
-def talks(folder: Path = TALKS) -> Iterator[tuple[str, str, list[tuple[str, str]], bool]]:
-    """The talks: of each its author, its language, its lines with what they do, and whether no supposition is written.
+def talks(folder: Path = TALKS) -> Iterator[tuple[str, list[tuple[str, str]], bool]]:
+    """The talks: of each its language, its lines with what they do, and whether what is supposed is not written down.
 
-    They are in the files that have suppositions at all.
+    It is in the files that have suppositions at all.
     """
     for path in sorted(folder.glob("*.txt")):
         written = path.read_text("utf-8").strip()
@@ -235,13 +231,13 @@ def talks(folder: Path = TALKS) -> Iterator[tuple[str, str, list[tuple[str, str]
             head, *lines = block.splitlines()
             said = [line.rsplit("=>", 1) for line in lines if "=>" in line]
             listed = [(text.strip(), notation.strip()) for text, notation in said]
-            yield path.stem, head.strip("# ")[:2], listed, "=> suppose" not in written
+            yield head.strip("# ")[:2], listed, "=> suppose" not in written
 
 
 def examples(folder: Path = TALKS) -> Iterator[Example]:
     """Each line behind a request; a line whose notation can't be done to what holds is left out."""
-    for author, language, lines, may_suppose in talks(folder):
-        talk = _Talk(language=language, author=author, may_suppose=may_suppose)
+    for language, lines, may_suppose in talks(folder):
+        talk = _Talk(language=language, may_suppose=may_suppose)
         for text, notation in lines:
             try:
                 example = talk.say(text, notation)

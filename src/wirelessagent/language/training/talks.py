@@ -12,14 +12,12 @@ equal talks make equal weights.
 
 from __future__ import annotations
 
-import collections
 import dataclasses
 import functools
 import logging
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -29,20 +27,10 @@ from wirelessagent.language.acts import Act, Everybody, Serve, Undo
 from wirelessagent.language.conversation import read_by_rules
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.possible import Change, Effect, Possible
-from wirelessagent.language.conversation.signs import (
-    BUCKETS,
-    TOGETHER,
-    WORDS,
-    Read,
-    Signs,
-    Together,
-    block_places,
-    place_of,
-)
+from wirelessagent.language.conversation.signs import BUCKETS, TOGETHER, Read, Signs, Together, block_places, place_of
 from wirelessagent.language.conversation.weighing import BLOCK, OWN, TALKS_FILE, Meaning, TalkModel, meanings
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.request import Key
-from wirelessagent.language.text import hashed
 from wirelessagent.language.training.fit import in_parallel, rounded, write
 from wirelessagent.language.training.fit_kernel import Places, one_pass_of_talks, scores_of
 from wirelessagent.language.training.talk_notation import Example, examples
@@ -125,12 +113,12 @@ def is_same(one: Effect, other: Effect) -> bool:
     )  # fmt: skip
 
 
-def parsed(example: Example, is_known: Callable[[str], bool]) -> Parsed:
+def parsed(example: Example) -> Parsed:
     """Everything that a line may mean, as numbers."""
     line = Line.of(example.text, example.context)
     possible = Possible(line.anchored, example.context)
     read = Read.of(read_by_rules(example.text, example.context, OfflineRecogniser()), possible)
-    signs = Signs(line, possible, read, line.voice.language, is_known)
+    signs = Signs(line, possible, read, line.voice.language)
     changes = tuple(signs.changes())
     named = [signs.blocks(change) for change in changes]
     blocks = {name: words for each in named for name, words in each}
@@ -161,31 +149,9 @@ def _light(changes: Sequence[Change]) -> tuple[Change, ...]:
     return tuple(found)
 
 
-def taught(path: Path) -> None:
-    """Make the model of all talks.
-
-    To a line as it is learnt from, those words are strange that only its own author has.
-    """
-    lines = list(examples())
-    authors = collections.defaultdict[str, set[str]](set)
-    for example, words in zip(lines, in_parallel(_words, lines), strict=True):
-        for word in words:
-            authors[word].add(example.author)
-    shared = {word for word, found in authors.items() if len(found) > 1}
-    read = in_parallel(functools.partial(parsed, is_known=shared.__contains__), lines, at_once=20)
-    trained(read, authors).save(path)
-
-
-def _words(example: Example) -> tuple[str, ...]:
-    return Line.of(example.text, example.context).anchored.words
-
-
 @foreground()
-def trained(lines: Sequence[Parsed], words: Iterable[str] = ()) -> TalkModel:
-    """The model that a few rounds make, and the words that it knows.
-
-    In each round changes go together that scored best in the one before.
-    """
+def trained(lines: Sequence[Parsed]) -> TalkModel:
+    """The model that a few rounds make: in each, changes go together that scored best in the one before."""
     own, blocks, blocks_of = (Flat.joined([getattr(line, name) for line in lines])
                               for name in ("own", "blocks", "blocks_of"))  # fmt: skip
     changes_at = np.cumsum([0, *(len(line.changes) for line in lines)], dtype=np.int64)
@@ -205,9 +171,7 @@ def trained(lines: Sequence[Parsed], words: Iterable[str] = ()) -> TalkModel:
             if turn == len(_PASSES) - 1:
                 mean += weights / count
     found, scale = rounded(mean, _FAINT)
-    known = np.zeros(WORDS, dtype=bool)
-    known[[hashed(word) % WORDS for word in words]] = True
-    return TalkModel(weights=found, scale=float(scale), together=joint, words=np.packbits(known, bitorder="little"))
+    return TalkModel(weights=found, scale=float(scale), together=joint)
 
 
 def _meant(lines: Sequence[Parsed], scores: npt.NDArray[np.float32], changes_at: npt.NDArray[np.int64]) -> tuple[
@@ -230,4 +194,4 @@ def _meant_by(line: Parsed, scores: npt.NDArray[np.float32]) -> tuple[Flat, Flat
 
 
 if __name__ == "__main__":
-    write(TALKS_FILE, taught)
+    write(TALKS_FILE, lambda path: trained(in_parallel(parsed, list(examples()), at_once=20)).save(path))
