@@ -114,14 +114,30 @@ def test_a_line_behind_a_question_turns_to_something_else(lines: tuple[str, ...]
     assert (turns[1].stage, held_in_fact) == ("asked", held)
 
 
+HELD = Context(
+    user_names=tuple(f"user {number}" for number in range(1, 9)), objective="proportional_fairness",
+    constraints={"max_power_w": 16.0}, language="en",
+)  # fmt: skip
+
+
 def test_no_figure_of_a_line_goes_unused_unasked() -> None:
     """One of two powers would be set, and the other one lost."""
-    context = Context(
-        user_names=tuple(f"user {number}" for number in range(1, 9)), objective="proportional_fairness",
-        constraints={"max_power_w": 16.0}, language="en",
-    )  # fmt: skip
     said = "Proportional fair mit 36 dBm, Blöcke zu vier Unterträgern, pro Unterträger maximal 200 mW."
-    assert understood(said, context, OfflineRecogniser()).kind == "clarify"
+    assert understood(said, HELD, OfflineRecogniser()).kind == "clarify"
+
+
+@pytest.mark.parametrize(
+    ("said", "asks"),
+    [
+        ("least power, user 2 at least 5 Mbit/s, user 2 at most 1 Mbit/s", "rates_crossed"),
+        ("max rate, 10 W or 12 W, user 4 at least 1 Mbit/s", "conflict"),
+        ("lowest power, user 3 either 1 or 2 Mbit/s, user 4 500 kbit/s", "unit_missing"),
+    ],
+)
+def test_a_request_of_its_own_that_is_doubted_is_not_guessed_at(said: str, asks: str) -> None:
+    """What the talk makes of its figures would leave out its aim, or one of them."""
+    found = understood(said, HELD, OfflineRecogniser())
+    assert (found.kind, found.asks, found.guess) == ("clarify", asks, None)
 
 
 def test_a_name_does_not_change_the_language() -> None:

@@ -320,7 +320,8 @@ def _stands(line: Line, intent: Intent) -> bool:
         answers = context.awaits == "clarification" and question.guess is None
         answers &= bool(question.pending or (question.users and not line.figures))
         aims = max(line.sentence.chances.kinds[aim] for aim in BUILT_IN) > AGREED
-        certain = intent.asks in _CERTAIN or bool(intent.asks and aims and line.figures)  # of a request of its own
+        of_its_own = aims and bool(line.figures) and intent.asks not in ("", "change")  # "lower the power by 5 W"
+        certain = intent.asks in _CERTAIN or of_its_own
         return answers or (certain and not _is_taken_off(line))
     answers_nothing = intent.topic in ("confirm", "reject") and context.awaits == "nothing"
     commands = intent.kind == "command" and intent.topic != "undo" and not answers_nothing and intent.confidence > SURE
