@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from wirelessagent.language.as_meant import as_meant
 from wirelessagent.language.constraints import read_constraints
 from wirelessagent.language.intent import same_constraints
 from wirelessagent.language.offline import recognise
@@ -234,6 +235,51 @@ BY_PLACE = [
 ]
 
 
+FIGURES_OF_SOME: list[tuple[str, dict[str, Any]]] = [
+    # each of those who are named right behind, and nobody else
+    ("300k for all of users 1, 2 and 3", {"min_rate_bps": dict.fromkeys("123", 3e5)}),
+    ("al menos 1 Mbit/s para cada uno de los usuarios 5 y 6", {"min_rate_bps": dict.fromkeys("56", 1e6)}),
+    ("à 1 Mbit/s chacun des utilisateurs 1 et 2 et à 2 Mbit/s chacun des utilisateurs 4 à 6",
+     {"min_rate_bps": dict.fromkeys("12", 1e6) | dict.fromkeys("456", 2e6)}),
+    ("mindestens 300 kbit/s für jeden der Nutzer 5 und 8", {"min_rate_bps": dict.fromkeys("58", 3e5)}),
+    ("jeder ungerade Nutzer mindestens 400 kbit/s", {"min_rate_bps": dict.fromkeys("1357", 4e5)}),
+    ("a weight of two for each even-numbered user", {"weights": dict.fromkeys("2468", 2.0)}),
+    ("每个双号用户保底300k", {"min_rate_bps": dict.fromkeys("2468", 3e5)}),
+    # ranges in other words
+    ("1 Mbit/s for everyone from user 3 to user 6", {"min_rate_bps": dict.fromkeys("3456", 1e6)}),
+    ("from user 2 up to user 4 inclusive everyone gets at least 1 Mbit/s", {"min_rate_bps": dict.fromkeys("234", 1e6)}),
+    ("desde el usuario 3 hasta el usuario 5 inclusive al menos 1 Mbit/s", {"min_rate_bps": dict.fromkeys("345", 1e6)}),
+    ("1 Mbit/s pour tous de l'utilisateur 3 à l'utilisateur 5", {"min_rate_bps": dict.fromkeys("345", 1e6)}),
+    ("Nutzer 2 bis einschließlich 4 mindestens 1 Mbit/s", {"min_rate_bps": dict.fromkeys("234", 1e6)}),
+    ("用户2至用户4（含用户4）每人至少1兆", {"min_rate_bps": dict.fromkeys("234", 1e6)}),
+    ("everyone from user 7 on at least 1 Mbit/s", {"min_rate_bps": dict.fromkeys("78", 1e6)}),
+    # the first and the last few
+    ("weight 3 for the first two and 2 for the last three", {"weights": {"1": 3, "2": 3, "6": 2, "7": 2, "8": 2}}),
+    ("mindestens 1 Mbit/s für die letzten drei", {"min_rate_bps": dict.fromkeys("678", 1e6)}),
+    ("los tres últimos con 2 Mbit/s como máximo", {"max_rate_bps": dict.fromkeys("678", 2e6)}),
+    # whoever is excepted, and goes without
+    ("all users but user 1, who is uncapped, are capped at 1 Mbit/s", {"max_rate_bps": dict.fromkeys("2345678", 1e6)}),
+    ("außer Nutzer 1, dem nichts zugesagt wird, stehen allen je 1 Mbit/s zu", {"min_rate_bps": {"all": 1e6, "1": 0.0}}),
+    ("all but user 2, to whom nothing is promised, get 1 Mbit/s at least", {"min_rate_bps": {"all": 1e6, "2": 0.0}}),
+    ("without users 3 and 4 everyone gets at least 1 Mbit/s", {"min_rate_bps": 1e6, "leave_out": ("3", "4")}),
+    ("user 1, who is uncapped, gets 2 Mbit/s at least", {"min_rate_bps": {"1": 2e6}}),
+    # said once for several
+    ("user 1 2 Mbit/s, user 2 3 Mbit/s, user 3 4 Mbit/s as caps", {"max_rate_bps": {"1": 2e6, "2": 3e6, "3": 4e6}}),
+    ("用户1 2兆、用户2 3兆作为上限", {"max_rate_bps": {"1": 2e6, "2": 3e6}}),
+    ("minimum of 2 Mbit/s for user 6, maximum of five for user 7",
+     {"min_rate_bps": {"6": 2e6}, "max_rate_bps": {"7": 5e6}}),
+    ("l'utilisateur 1 plafonné à 2 Mbit/s, le 2 à 3 Mbit/s", {"max_rate_bps": {"1": 2e6, "2": 3e6}}),
+    ("la puissance ne dépassant pas 12 W ni aucun utilisateur 3 Mbit/s", {"max_power_w": 12.0, "max_rate_bps": 3e6}),
+    ("que el usuario 3 no baje de 1 Mbit/s ni el 4 suba de 5 Mbit/s",
+     {"min_rate_bps": {"3": 1e6}, "max_rate_bps": {"4": 5e6}}),
+    ("un maximum de débit total avec 10 W", {"max_power_w": 10.0}),
+    # shares and blocks
+    ("on half its 20 W", {"max_power_w": 10.0}), ("mit der Hälfte ihrer 20 W", {"max_power_w": 10.0}),
+    ("avec la moitié de ses 20 W", {"max_power_w": 10.0}),
+    ("subcarriers are to be handed out in fours", {"resource_block_group_size": 4.0}),
+]  # fmt: skip
+
+
 def reading(text: str) -> Reading:
     return read_constraints(text, normalise(text), parse_quantities(text))
 
@@ -256,6 +302,14 @@ def test_users_by_where_they_stand_among_all(text: str, users: str) -> None:
     found = read_constraints(text, normalise(text), parse_quantities(text), names=names)
     assert not found.doubts
     assert dict(found.values) == {"min_rate_bps": dict.fromkeys(users, 1e6)}
+
+
+@pytest.mark.parametrize(("text", "stated"), FIGURES_OF_SOME)
+def test_whose_figures_are_whose(text: str, stated: dict[str, Any]) -> None:
+    said, names = as_meant(text), [f"user {number}" for number in range(1, 9)]
+    found = read_constraints(said, normalise(said), parse_quantities(said), names=names)
+    assert not found.doubts
+    assert same_constraints(found.values, stated), found.values
 
 
 @pytest.mark.parametrize(

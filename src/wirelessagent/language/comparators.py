@@ -44,8 +44,8 @@ def _any_of(*names: str) -> str:
 
 _WORD = deferred(r"[A-Za-zÀ-ÿ]++")
 # What may stand between a comparator and its figure.
-_BETWEEN = frozenset(words_of("figures", "bounds", "between", "power", "rate"))
-_SIGNS = "|".join(sorted((word for word in _BETWEEN if not _WORD.match(word)), key=len, reverse=True))
+BETWEEN = frozenset(words_of("figures", "bounds", "between", "power", "rate"))
+_SIGNS = "|".join(sorted((word for word in BETWEEN if not _WORD.match(word)), key=len, reverse=True))
 _GAP = deferred(rf"(?:\s++|{_WORD.pattern}|{_SIGNS}){{0,16}}$")
 _FEW_WORDS = rf"(?:(?!{AND}\s+(?!{USER_NOUN}|[0-9]))[\w'’#-]+\s+){{0,6}}?"
 
@@ -93,7 +93,7 @@ def speaks_of(plain: str) -> frozenset[str]:
 _POWER_RE, _RATE_RE = (deferred("(?i)" + _any_of(name)) for name in ("power", "rate"))
 WITH = r"(?:with|con|avec|mit|bei)\b"
 """Words behind which the noun ahead is one of a wish: "max rate with 1 Mbit/s"."""
-_WISH_WITH = deferred(rf"{_RATE_RE.pattern}\s+{WITH}")
+_WISH_WITH = deferred(rf"{_RATE_RE.pattern}\s+(?:\w+\s+)?{WITH}")
 _CLAUSE = deferred(CLAUSE_END)
 
 
@@ -138,7 +138,7 @@ def _before(text: str, start: int, end: int, *, kind: str, after: int) -> tuple[
     clause_start = max(cuts, default=window_start)
     for match in reversed(list(_BEFORE.finditer(text, clause_start, start))):
         gap = text[match.end() : start]
-        is_filler = _GAP.match(gap) is not None and all(word.lower() in _BETWEEN for word in _WORD.findall(gap))
+        is_filler = _GAP.match(gap) is not None and all(word.lower() in BETWEEN for word in _WORD.findall(gap))
         if not is_filler or _foreign_noun(gap, kind):
             continue
         for bound in _BOUNDS:

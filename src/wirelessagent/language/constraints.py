@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from wirelessagent.language.comparators import WITH
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
 from wirelessagent.language.judged import Judged
-from wirelessagent.language.mentions import ARTICLES, WITHOUT, Mention, Role
+from wirelessagent.language.mentions import ARTICLES, GIVEN_TO, WITHOUT, Mention, Role
 from wirelessagent.language.moods import lifted_in, may_be_lifted
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
@@ -35,6 +35,11 @@ _GIVEN_ALIKE = Beside(
         rf"(?=\s*(?:$|[,.;:!?)\uff0c。；、]|(?:{AND})\b))"
     ),
 )
+_EXCEPTED = deferred(rf"(?i)(?:{either('figures', 'users', 'excepted')})\s*(?:{GIVEN_TO}\s*)*(?:l')?$")
+_FREE = deferred(
+    rf"(?i)\s*号?\s*[,(\uff0c]\s*[^,;.()\uff0c；。]*?(?:{either('figures', 'users', 'free')})[^,;.()\uff0c；。]*"
+)
+"""What is said, between commas, of somebody excepted who goes without: "all but user 1, who is uncapped, …"."""
 _SILENT = ("kept", "stale")
 """Roles of somebody who is only spoken of."""
 _UNSETTLED = ("exempt", "unclear")
@@ -173,7 +178,7 @@ class Allotments:
         """What somebody is there for; without certainty it is unclear."""
         chances, said = self._judged.user(mention), self._judged.said_of(mention)
         self._lifted[mention] = self._goes_without(mention)
-        if said["exempt"] > _SURE_OF_A_ROLE or self._lifted[mention]:
+        if said["exempt"] > _SURE_OF_A_ROLE or self._lifted[mention] or self._is_free(mention):
             return "exempt"  # whatever rate stands beside it is that of all others
         role = self._likely[mention] = max(chances, key=lambda each: chances[each])
         if role == "users" and self._others_have_a_figure(mention):  # who are served then, too
@@ -189,6 +194,14 @@ class Allotments:
         start, end = self._clause_of(mention)
         lifted = frozenset[str](() if self._has_figures(start, end) else lifted_in(self._plain[start:end]))
         return lifted if lifted <= {*_RATES, "all", "ceilings"} else frozenset()
+
+    def _is_free(self, mention: Mention) -> bool:
+        """Whether somebody is excepted and said to go without, in words that wish for nothing else."""
+        free = _FREE.match(self._plain, mention.end)
+        if free is None or self._has_figures(*free.span()) or not _EXCEPTED.search(self._plain, 0, mention.start):
+            return False
+        self.spans.append(free.span())
+        return True
 
     def _others_have_a_figure(self, mention: Mention) -> bool:
         """Whether the others, named behind somebody, have a figure in their clause: "除了用户4和5，其他人至少700k"."""
@@ -537,10 +550,10 @@ class _Reader:
     def take_users(self) -> None:
         """What users are given, and those who are counted, some of them, or named for nothing: each is a doubt."""
         reading, allotted = self._reading, self._allotments
-        take_counts(reading, self._judged.numbers.recounted, allotted.spans, len(self._judged.users_of_the_cell))
-        doubt_parts(reading, allotted.spans)
         for start, end in allotted.take_users():
             reading.doubt("named_user", text=reading.text[start:end])
+        take_counts(reading, self._judged.numbers.recounted, allotted.spans, len(self._judged.users_of_the_cell))
+        doubt_parts(reading, allotted.spans)
         if _STEP.search(reading.plain) is not None:
             reading.steps.setdefault("power_w", 1.0)
         reading.strangers = self._judged.numbers.strangers

@@ -16,22 +16,24 @@ from wirelessagent.language.number_roles import ITEMS, Numbers, everybody_named,
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.request import numbered
-from wirelessagent.language.stated import CARRIERS, shares_power
+from wirelessagent.language.stated import CARRIERS, Beside, shares_power
 from wirelessagent.language.text import Span
 from wirelessagent.language.word_tables import any_word, deferred, either
 
 # The share of those who have a rate or a weight, among all users named and among those of each role.
 _OWN, _OWNS = 0.7, {"users": 0.4, "given": 0.95, "unclear": 0.2}
 _OWNS_ELSE = 0.02
+_AS = either("figures", "bounds", "as_bounds")
 _HEADS = {
-    bound: deferred(
-        rf"(?i){any_word('figures', 'bounds', name)}[^.:;\uff1a。；]{{0,20}}[:\uff1a]\s*"
-        r"(?:[^\s.;]*\s){0,4}[^\s.;0-9]*$"
+    bound: Beside(
+        deferred(rf"(?i){said}[^.:;\uff1a。；]{{0,20}}[:\uff1a]\s*(?:[^\s.;]*\s){{0,4}}[^\s.;0-9]*$"),
+        deferred(rf"(?i)\s*(?:{_AS})\s*{said}(?!\w)"),
     )
     for bound, name in (("min_rate_bps", "floors_of"), ("max_rate_bps", "caps_of"))
+    for said in [any_word("figures", "bounds", name)]
 }
-"""What may stand ahead of the first of a series: "floors in Mbit/s: u1 0.5, u2 0.75"."""
-_UNBOUND = deferred(rf"(?i)\s*(?:$|[^\w\s]|{GIVEN_TO}|{JOINT_WORDS})")
+"""What may stand ahead of the first of a series, "floors in Mbit/s: u1 0.5, u2 0.75", or behind its last, "as caps"."""
+_UNBOUND = deferred(rf"(?i)\s*(?:$|[^\w\s]|{GIVEN_TO}|{JOINT_WORDS}|{_AS})")
 _WHO = deferred(rf"(?i)\s*,?\s*(?:{either('figures', 'users', 'relative')})[^,;.\uff0c；。]*")
 _CEILINGS = ("max_power_w", "subcarrier_max_power_w")
 _BOUNDED = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
@@ -100,11 +102,12 @@ class Judged:
             if each:
                 means |= dict.fromkeys(starts, jointly(each))
         for first, *behind in self._series:  # "cap 1 at 1.5, 4 at 2 and 6 at 2.5 Mbit/s": one bound
-            alone = [first, *itertools.takewhile(self._has_no_bound, behind)]
+            alone, last = [first, *itertools.takewhile(self._has_no_bound, behind)], [first, *behind][-1]
             if first.comparator is None and len(alone) > len(behind):
                 means |= dict.fromkeys((each.start for each in alone), jointly([means[each.start] for each in alone]))
             bound = _BOUNDED.get(first.comparator or "") if first.phrase_start < first.start else None
-            headed = (name for name, head in _HEADS.items() if head.search(self._look.plain, 0, first.start))
+            plain = self._look.plain
+            headed = (name for name, head in _HEADS.items() if head.is_at(plain, first.start, last.end))
             bound = next(headed, bound) if first.comparator is None else bound
             if bound is not None:  # not "2 Mbit/s max, user 3 1 Mbit/s"
                 chances = moved(means[first.start], ("min_rate_bps", "max_rate_bps", "both"), bound)

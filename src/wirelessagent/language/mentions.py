@@ -106,7 +106,8 @@ BY_PLACE = Phrases(
             ),
             *(
                 rf"(?:{end}\s+(?P<{name}>{_FEW})|\b(?P<{name}_>{_FEW})\s+{end})\s+{NOUN}(?![A-Za-z])|"
-                rf"{end}\s*(?P<{name}__>[0-9]{{1,2}}|[一二两三四五六七八九十])\s*[个位名]\s*{ZH_NOUN}"
+                rf"{end}\s*(?P<{name}__>[0-9]{{1,2}}|[一二两三四五六七八九十])\s*[个位名]\s*{ZH_NOUN}|"
+                rf"(?P<{name}___>{either('figures', 'users', f'{name}_few', few=_FEW)})"
                 for name, end in _ENDS.items()
             ),
             rf"(?:(?<![A-Za-z0-9]){NOUN}|{ZH_NOUN})\s*(?P<from>[0-9]{{1,3}})\s*(?:{_ON}|\+(?!\s*(?:[0-9]|{NOUN})))",
@@ -121,12 +122,16 @@ LISTED = deferred(  # between the figures of a list
     rf"(?i)\s*(?:[,;、\uff0c]|{JOINT.pattern.removeprefix('(?i)')}|,?\s*(?:and then|beziehungsweise|bzw\.?|"
     r"respectively))\s*"
 )
+_OUT_OF, _RANGED, _INCLUDED = (f"(?:{either('figures', 'users', name)})" for name in ("out_of", "ranged", "included"))
+_OUT_OF_THOSE, _RANGED_AHEAD = deferred(rf"(?i)\s*{_OUT_OF}'?\s*"), deferred(rf"(?i){_RANGED}'?\s*$")
+_NOBODY = Phrases(either("figures", "users", "nobody"))
+_INCLUSIVE = deferred(rf"(?i)(?:\s*[,(\uff0c]?\s*{_INCLUDED}\s*\)?,?)?\s*")
 _EACH_OF = deferred(rf"(?i)(?:{either('figures', 'users', 'each_of')})\s*{ANY_NOUN}?\s*(?:from|de|von|entre)?\s*$")
 _LONGEST_RANGE, _NEAR, MOST_USERS, _FAR_OFF = 100, 25, 100, 5
 """How many users a range may have, how near what leaves out stands, and from where on a number behind users that is so
 many times theirs is none."""
 _UP_TO = deferred(rf"(?i)\s*号?(?:{_TO}(?:l')?|\s*[到至]\s*)")
-_ITEM = deferred(rf"(?i)[0-9]+|\b{_ORDINAL}\b|{WORD_NUMBER}\b|[一二三四五六七八九十]+")
+_ITEM = deferred(rf"(?i)[0-9]+|\b{_ORDINAL}\b|\b{WORD_NUMBER}\b|[一二三四五六七八九十]+")
 _AND_BETWEEN = deferred(r"(?i)[a-z和与跟及&/、]")
 _LAST_COMMA = deferred(rf"(?i)\s*[,\uff0c]\s*(?:(?:{AND}|e)\s+)?(?=[^,\uff0c]*$)")
 WITHOUT = Phrases(either("figures", "users", "without"))
@@ -181,7 +186,7 @@ def _by_place(plain: str, count: int) -> Iterator[Mention]:
     for match in BY_PLACE.finditer(plain):
         group, words = next((name, words) for name, words in match.groupdict().items() if words)
         said = [number for part in _ITEM.finditer(words) if (number := _number(part.group())) is not None]
-        number = max(said[-1:], default=2)
+        number = max(said, default=2)
         first, last, step = {
             "odd": (1, count, 2), "even": (2, count, 2), "nth": (max(number, 2), count, max(number, 2)),
             "first": (1, number, 1), "last": (count - number + 1, count, 1), "up_to": (1, number, 1),
@@ -287,7 +292,31 @@ def merged(plain: str, found: Sequence[Mention]) -> list[Mention]:
         else:
             users = tuple(dict.fromkeys([*last.users, *between, *mention.users]))
             merged[-1] = Mention(role="named", users=users, start=last.start, end=mention.end)
-    return [part for mention in merged for part in _parted(plain, mention)]
+    return _distributed(plain, [part for mention in merged for part in _parted(plain, mention)])
+
+
+def _distributed(plain: str, found: Sequence[Mention]) -> list[Mention]:
+    """Users who are named with the words beside that only say "each of them": these are no mention of everybody.
+
+    "each of users 1 to 4", "everyone from user 3 to user 6", "from user 2 to user 7 inclusive everyone".
+    """
+    kept: list[Mention] = []
+    for mention in found:
+        last, between = (kept[-1], plain[kept[-1].end : mention.start]) if kept else (mention, ".")
+        several = len(last.users) > 1 and _INCLUSIVE.fullmatch(between) is not None
+        ranged = several and _RANGED_AHEAD.search(plain, 0, last.start) is not None
+        again = {*mention.users} < {*last.users} and bool(between.strip(" ,("))  # "users 2 to 5 (5 included)"
+        if (mention.role in ("everybody", "pronoun") and ranged) or (again and several):
+            kept[-1] = replace(last, end=mention.end)
+            continue
+        while len(mention.users) > 1 and kept and kept[-1].role == "everybody":
+            each = kept[-1]
+            denied = _NOBODY.search(plain[each.start : each.end])  # which is read elsewhere
+            if denied or _OUT_OF_THOSE.fullmatch(plain, each.end, mention.start) is None:
+                break
+            mention = replace(mention, start=kept.pop().start)
+        kept.append(mention)
+    return kept
 
 
 def _parted(plain: str, mention: Mention) -> tuple[Mention, ...]:

@@ -26,6 +26,7 @@ from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Measure, Quantity, QuantityKind, measures
 from wirelessagent.language.stated import COUNTED_USERS, FOREIGN_UNIT, idioms, loose_numbers, may_be_a_limit
 from wirelessagent.language.text import (
+    USER_NOUN,
     WORD_OR_SIGN,
     Phrases,
     Span,
@@ -185,6 +186,7 @@ _BESIDE = deferred(  # between the figures of users one after the other, "@" for
     rf"(?i)(?=[^@]*@)(?:[\s,;:、\uff0c\uff1b\uff1a/&=→>()\[\]@-]|"
     rf"{GIVEN_TO}|{JOINT_WORDS}|{either('figures', 'users', 'given_with')})*"
 )
+_TO_SOMEBODY = deferred(rf"(?i)\s*(?:{GIVEN_TO}\s*)+{USER_NOUN}")
 _WITH_A_JOINT = deferred(rf"(?i)(?=\s*\S)(?:{LISTED.pattern.removeprefix('(?i)')})")
 _WEIGHTS = deferred(  # what follows are weights, whatever else they may look like
     rf"(?i)(?:(?:{either('figures', 'users', 'weights')})(?:\s+(?:of|are|is|being|de|von|sind))?|"
@@ -377,7 +379,8 @@ def _is_a_figure(look: Look, number: Number, chances: Mapping[str, float], role:
         return chances[role] > _SURE_OF_A_FIGURE
     sure = sum(chances[each] for each in BORROWING if BORROWING[each] == BORROWING[role] and each != "multiple")
     if look.bound(number) not in ("", "None") and chances["user"] < _LIKELY:  # which nobody is
-        sure /= 1 - chances["user"]
+        given = _TO_SOMEBODY.match(look.plain, number.end) is not None  # "maximum of five for user 7"
+        sure /= 1 - chances["user"] - given * chances["harmless"]
     if number in look.ones:
         return sure > _SURE_OF_ONE
     if SCALED.match(look.plain, number.end):

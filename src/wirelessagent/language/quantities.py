@@ -17,12 +17,12 @@ import functools
 import itertools
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from typing import Literal, TypeAlias
 
-from wirelessagent.language.comparators import Comparator, comparison
+from wirelessagent.language.comparators import BETWEEN, Comparator, comparison
 from wirelessagent.language.mentions import is_of_each
 from wirelessagent.language.number_words import cardinals, listed
 from wirelessagent.language.numerals import NUMBERED, Number, and_part, chinese_value, numbers
@@ -235,6 +235,7 @@ _AFTER_BARE = deferred(
     r"(?:de\s+)?(?:probabilit|outage|wahrscheinlich)|"
     rf"{'|'.join(either('figures', *each) for each in _NO_UNITS)}))"
 )
+_ARTICLES = frozenset(words_of("figures", "numbers", "articles"))
 _NAMES = deferred(rf"(?i)(?:{either('figures', 'named', 'numbered')}|\bno\.|[#№])\s*$")
 _CHINESE_COUNTED = deferred(
     r"\s*(?:[千兆]?瓦时|[千兆毫微]?(?:赫|米|秒|焦)|个|号|名|位|路|台|人|用户|小时|分钟|点|月|日|年|公里|次|倍|度|成)"
@@ -245,6 +246,9 @@ _FOREIGN_APIECE = deferred(
     r"(?i)\s?(?!users?\b|ues?\b)[A-Za-zμ][A-Za-zμ/]*\s*(?:each\b|apiece\b|per\s+(?:user|person|head)\b|每)"
 )
 _RANGE = deferred(rf"\s*(?:-|–|—|~|(?i:(?:to|through|à|bis|{AND})\b)|到|至)\s*$")
+_NOR = deferred(rf"(?i)[^.;:]*?(?:{either('figures', 'bounds', 'nor')})(?P<who>[^,.;:]*)")
+_SUBJECTS = BETWEEN.union(words_of("figures", "bounds", "nor_whom"))
+_SOMEBODY = deferred(rf"(?i)\b{any_word('figures', 'users', 'single')}\s+$")
 _OWN_NOUN = deferred(  # "each user's rate no lower than" bounds the rate, and wishes for none
     r"(?:用户|每人|人均|每个|每户|各|UE|终端|大家|的)的?(?P<noun>(?:下行|数据)?(?:速率|速度|网速|吞吐量?))(?:都|"
     r"也)?(?:要|得|必须|应|须)?$"
@@ -313,12 +317,20 @@ def parse_quantities(text: str) -> tuple[Quantity, ...]:
         if measure.start in ranges:
             found.extend(_range(text, ranges[measure.start], measure))
         elif (quantity := _bounded(text, plain, measure, after=after, until=until)) is not None:
-            found.append(quantity)
+            found.append(_as_denied(plain, found, quantity))
         else:
             continue
         if found[-1].kind != "bare" or found[-1].comparator is not None:  # "neither 3 nor 4 below 1 Mbit/s"
             after = found[-1].phrase_end
     return tuple(_said_once(text, plain, found))
+
+
+def _as_denied(plain: str, found: Sequence[Quantity], figure: Quantity) -> Quantity:
+    """A figure bounded as the one before where one verb denies both: "no user above 4 Mbit/s nor the power 13 W"."""
+    nor = _NOR.fullmatch(plain, found[-1].phrase_end, figure.start) if found and figure.comparator is None else None
+    words = re.findall(r"[^\W\d_]+", nor["who"].lower()) if nor else ()
+    alike = nor and _SUBJECTS.issuperset(words)  # without a verb of its own
+    return dataclasses.replace(figure, comparator=found[-1].comparator) if alike else figure
 
 
 def _said_once(text: str, plain: str, found: Iterable[Quantity]) -> list[Quantity]:
@@ -346,8 +358,9 @@ def _joined(plain: str, lower: Measure, upper: Measure) -> bool:
     gap = plain[lower.end : upper.start]
     if lower.number.value is None or upper.number.value is None or upper.unit is None or _RANGE.match(gap) is None:
         return False
-    if lower.unit is None and lower.factor == 1 and lower.number.value >= upper.number.value:
-        return False  # "users 1 to 4 to 3 Mbit/s"
+    bare = lower.unit is None and lower.factor == 1
+    if bare and (lower.number.value >= upper.number.value or _SOMEBODY.search(plain, 0, lower.start)):
+        return False  # "users 1 to 4 to 3 Mbit/s", "le 2 à 3 Mbit/s"
     if lower.unit is not None and upper.unit.kind != lower.unit.kind:
         return False
     if re.fullmatch(rf"\s*{AND}\s*", gap.lower()) is None:
@@ -377,8 +390,10 @@ def _bounded(text: str, plain: str, measure: Measure, *, after: int, until: int)
     kind = kind or _kind_not_understood(plain, measure, bounded=bounds.comparator is not None)
     if kind is None or (bounds.comparator is None and _is_no_figure(plain, measure, kind)):
         return None
-    article = plain[number.start : number.end].lower() in ("a", "an")
-    if article and not (unit is not None and (bounds.comparator or unit.kind == "rate")):
+    word = plain[number.start : number.end].lower()
+    if (word in _ARTICLES and unit is None) or (
+        word in ("a", "an") and not (unit is not None and (bounds.comparator or unit.kind == "rate"))
+    ):  # "un maximum de débit"
         return None
     bounded_rate = bounds.comparator and kind == "rate"
     own = _OWN_NOUN.search(plain, max(0, bounds.start - 12), bounds.start) if bounded_rate else None

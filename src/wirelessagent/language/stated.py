@@ -221,7 +221,7 @@ _TOGETHER_WORDS = "|".join(word if is_chinese(word) else rf"\b{word}\b" for word
 _CARRIER = "|".join(words_of("figures", "grouped", "carriers"))
 _BLOCKS = Phrases(
     rf"(?P<ahead>{_TOGETHER_WORDS})(?=\s*(?:(?:of|de|von|的)\s*)?(?:{_CARRIER}|子载波))|"
-    rf"(?:{_CARRIER}|子载波)(?:\s+\w+){{0,3}}?\s*(?P<behind>{_TOGETHER_WORDS})"
+    rf"(?:{_CARRIER}|子载波)(?:\s+\w+){{0,6}}?\s*(?P<behind>{_TOGETHER_WORDS})"
     r"|\b(?P<fold>[a-zäöüß]{3,})er-?(?:gruppen?|blöcken?|blöcke|päckchen|packs?|bündeln?)\b",
     marks=" ".join({word.split()[-1] for word in _TOGETHER} | {"gruppe", "blöck", "päck", "pack", "bündel"}),
 )
