@@ -7,7 +7,8 @@ from typing import Any
 import pytest
 
 from wirelessagent.language.as_meant import heard, without_corrected
-from wirelessagent.language.sentence import Sentence, own_words
+from wirelessagent.language.sentence import Sentence, own_words, read_once
+from wirelessagent.language.text import normalise
 
 NAMES = tuple(f"user {number}" for number in range(1, 9))
 
@@ -26,6 +27,12 @@ NAMES = tuple(f"user {number}" for number in range(1, 9))
         ("cap user sicks at won point five megabits on any sub carrier", {"max_rate_bps": {"6": 1.5e6}}),
         ("potencia mínima y ocho cientos kilo bits para cada usuario", {"min_rate_bps": 8e5}),
         ("minimise la puissance et l'utilisateur cette a au moins de mégabits", {"min_rate_bps": {"7": 2e6}}),
+        ("serve only users one too and five and max sum rate", {"users": ("1", "2", "5")}),
+        ("users 1 and ate are out, max rate", {"leave_out": ("1", "8")}),
+        ("users 1 to 3 only, max rate", {"users": ("1", "2", "3")}),
+        ("drop user 3, also drop user 4", {"leave_out": ("3", "4")}),
+        ("in blocks of six und vierzig dbm sind das limit", {"resource_block_group_size": 6, "max_power_w": 10.0}),
+        ("en bloques de four con diez vatios", {"resource_block_group_size": 4, "max_power_w": 10.0}),
         ("功率最低用户似至少一照", {"min_rate_bps": {"4": 1e6}}),
         ("puissance minimale et cinq sans kilobits par seconde pour chacun au minimum", {"min_rate_bps": 5e5}),
     ],
@@ -61,6 +68,14 @@ def test_what_is_spelt_as_it_is_meant_stays(text: str) -> None:
         ("每个人给五百哦不对给六百k", "每个人给 六百k"),
         ("everyone gets at least one no two megabits", "everyone gets at least two megabits"),
         ("gewicht zwei quatsch drei", "gewicht drei"),
+        ("user 4 gets four hundred no five hundred kilobits", "user 4 gets five hundred kilobits"),
+        ("con quince no con dieciséis vatios", "con dieciséis vatios"),
+        ("uno coma cinco megas por lo menos no perdón dos megas", "dos megas por lo menos"),
+        ("zwei megabit nee warte zweieinhalb megabit und", "zweieinhalb megabit und"),
+        ("it is forty dbm not forty one and max rate", "it is forty dbm and max rate"),
+        ("max rate, not ten watts, sorry, twelve watts", "max rate, twelve watts"),
+        ("sans l'utilisateur deux pardon sans l'utilisateur un", "sans l'utilisateur un"),
+        ("with like ten watts", "with ten watts"),
         *(
             (text, text)
             for text in (
@@ -68,9 +83,35 @@ def test_what_is_spelt_as_it_is_meant_stays(text: str) -> None:
                 "halt user 3 at 2 Mbit/s", "a ver si sube", "voyons ce que donne 10 W", "du genre 10 W",
                 "让用户3回来吧", "users two two and three", "保1号1 Mbps", "user 2 yes 2 megabits",
                 "each user 2 megabits yes 2 users are out", "it does not work well", "1 Mbit/s for 2, no, 3 Mbit/s",
+                "al 3 no, al 8", "i would like 10 W", "no service for 6 no 10 W limit",
             )
         ),
     ],
 )  # fmt: skip
 def test_what_says_nothing_is_gone_before_a_line_is_read(said: str, meant: str) -> None:
     assert " ".join(without_corrected(said).split()) == meant
+
+
+@pytest.mark.parametrize(
+    ("said", "meant"),
+    [
+        ("bits per joule first no no sorry maximise the sum rate that is it", "maximise the sum rate"),
+        ("maximise bits per joule with 14 W, no, wait, maximise the sum rate", "14 W maximise the sum rate"),
+        ("user 3 at least 1 Mbit/s and least power, sorry, max sum rate", "user 3 at least 1 Mbit/s and max sum rate"),
+        ("min power no wait max rate no sorry proportional fairness", "proportional fairness"),
+        ("mínima potencia, perdón, máxima tasa total", "máxima tasa total"),
+        ("le plus gros débit total possible euh non équité proportionnelle", "équité proportionnelle"),
+        ("minimale leistung nein moment maximale summenrate mit zehn watt", "maximale summenrate mit zehn watt"),
+        ("能效最高，不对，总速率最高", "总速率最高"),
+        *(
+            (text, text)
+            for text in (
+                "give me max rate rather than min power", "we had been on max rate, no wait, least power",
+                "max rate, no min power please", "min power, sorry, the circuit power is 5 W",
+                "le débit maximal plutôt que la puissance minimale", "el peor usuario con el mejor caudal total",
+            )
+        ),
+    ],
+)  # fmt: skip
+def test_the_aim_that_was_said_last_holds(said: str, meant: str) -> None:
+    assert " ".join(read_once(said, own_words(), None).plain.split()) == " ".join(normalise(meant).split())

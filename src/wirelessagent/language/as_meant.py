@@ -12,7 +12,9 @@ import functools
 import itertools
 import re
 from collections.abc import Iterator, Mapping
+from decimal import Decimal
 
+from wirelessagent.language.comparators import WITH
 from wirelessagent.language.mentions import (
     ANY_NOUN,
     GIVEN_TO,
@@ -23,9 +25,10 @@ from wirelessagent.language.mentions import (
     mentions,
     named,
 )
+from wirelessagent.language.number_words import whole
 from wirelessagent.language.numerals import NUMBERED, Number, factors, numbers
 from wirelessagent.language.shares import worked_out
-from wirelessagent.language.text import AND, WORD, clause_start, normalise, overlaps, replaced, written_over
+from wirelessagent.language.text import AND, WORD, Span, clause_start, normalise, overlaps, replaced, written_over
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import language_of
 from wirelessagent.language.word_tables import any_word, deferred, either, table
@@ -58,9 +61,13 @@ def heard(text: str) -> str:
 
 
 def _fits(name: str, plain: str, start: int, end: int) -> bool:
-    """Whether what stands at a place may be what is only heard "behind_numbers" or "ahead_of_units"."""
+    """Whether what stands at a place may be what is only heard "behind_numbers", "ahead_of_units" or "in_lists"."""
     if name == "ahead_of_units":
-        return unit_at(plain, end) is not None
+        return unit_at(plain, end) is not None or _CARRIER_BEHIND.match(plain, end) is not None
+    if name == "in_lists":
+        more, last = _ITEM_BEHIND.match(plain, end), _JOINS.match(plain, start)
+        listed = last or (more and unit_at(plain, more.end()) is None)
+        return bool(listed and _ITEMS_AHEAD.search(plain, 0, start))
     return name != "behind_numbers" or len(plain[:start].rstrip()) in {number.end for number in numbers(plain)}
 
 
@@ -81,7 +88,11 @@ def _misheard(name: str, language: str) -> re.Pattern[str]:
 _DIGIT = "一二两三四五六七八九十"
 _NUMBER = rf"(?:(?<![A-Za-z0-9.,])[0-9]+(?:[.,][0-9]+)?|\b{WORD_NUMBER}\b|(?<![{_DIGIT}])[{_DIGIT}]{{1,3}}+)"
 _BREAK = r"\s*+(?:[,;\uff0c；、啊哎哦唉]|[-–—…]++|\.{2,3}+)\s*+"
-_CORRECTS, _MEANS = (either("figures", "one", name) for name in ("corrects", "means"))
+_CARRIER_BEHIND = deferred(rf"(?i)\s*{any_word('figures', 'grouped', 'carriers')}\b")
+_ITEMS_AHEAD = deferred(rf"(?i){ANY_NOUN}\s+{_NUMBER}(?:\s*,?\s*{_NUMBER})*\s*,?\s*$")
+_JOINS = deferred(rf"(?i)(?:{AND})\b")
+_ITEM_BEHIND = deferred(rf"(?i)\s*,?\s*(?:(?:{AND})\s+)?{_NUMBER}")
+_CORRECTS, _MEANS, _PREFERS = (either("figures", "one", name) for name in ("corrects", "means", "prefers"))
 _JOINT = rf"(?:{JOINT_WORDS}|\b{any_word('figures', 'users', 'to')}\b|[~/&+、到至和与]|(?<=[0-9])[-–](?=[0-9]))"
 _FILLED, _CONFIRMS = (either("figures", "one", name, number=WORD_NUMBER) for name in ("fillers", "confirms"))
 _TOKEN = rf"(?>{WORD})"
@@ -96,13 +107,17 @@ _AGAIN = deferred(  # what stands between a figure and the same figure: "fourtee
 _BACK = deferred(
     rf"(?i)(?:\s*+{_TOKEN}){{0,3}}?\s*+{_PAUSE}*+(?P<said>{_CORRECTS})(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}|是))*+)"
 )
+_TAKES_BACK = deferred(
+    rf"(?i){_PAUSE}*+(?P<said>{_MEANS}|{_CORRECTS})(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}|是))*+)"
+)
 _INSTEAD = deferred(
     rf"(?i)(?:\s*{_TOKEN}){{0,3}}?\s*[,\uff0c]?\s*(?P<instead>(?:{either('figures', 'one', 'instead_of')})\s*)"
 )
 _BOUND_BEHIND = "|".join(either("figures", "bounds", name) for name in ("at_least_behind", "at_most_behind"))
-_BOUND_AHEAD = deferred(rf"(?i)(?:{any_word('figures', 'bounds', 'at_least', 'at_most')})\s*$")
+_BOUND_AHEAD = deferred(rf"(?i)(?:{any_word('figures', 'bounds', 'at_least', 'at_most')}|\b{WITH})\s*$")
 _WEIGHT_AHEAD = deferred(rf"(?i)(?:{either('figures', 'users', 'weighs')})\s*$")
 _ENDED = deferred(r"\s*(?:$|[,.;:!?)\uff0c\uff1b。、](?![0-9]))")
+_GOES_ON = deferred(rf"(?i){_ENDED.pattern}|\s+(?:{AND})\b(?!\s*{_NUMBER})")
 _NOT_AHEAD = deferred(
     rf"(?i)(?:^|[\s,;:.\uff0c。；])(?P<denies>(?:{either('figures', 'one', 'not_who')})\s*(?:{GIVEN_TO}\s*)*)$"
 )
@@ -137,6 +152,20 @@ def without_corrected(text: str) -> str:
             done.append((start, end))
     left = _fillers(language_of(text)).sub(lambda match: " " * len(match[0]), text)
     return text if left.isspace() else left
+
+
+def taking_back(plain: str) -> Iterator[Span]:
+    """Where words stand that take back what is no figure: "no wait", "不对"; a lone "no" denies, "uh" fills a pause.
+
+    >>> list(taking_back("least power, no, wait, max rate, no user 3, uh"))
+    [(11, 23)]
+    """
+    for match in _TAKES_BACK.finditer(plain):
+        said, filled = match["said"].casefold(), plain.endswith("   ", 0, match.start("said"))  # "euh non"
+        if re.fullmatch(_PREFERS, said) and not plain[match.start() : match.start("said")].strip():
+            continue  # "el mejor caudal"
+        if filled or match["more"].strip() or (said not in _DENIES and not re.fullmatch(_FILLED, said)):
+            yield match.span()
 
 
 @functools.cache
@@ -193,7 +222,7 @@ def _not_meant(plain: str) -> Iterator[tuple[int, int, str]]:
         said = _INSTEAD.fullmatch(plain, its.end, other.start) if its is not None else None
         end = other.end if unit is None else unit.end
         alike = its is not None and (unit is None or unit.kind == its.kind)
-        if said is not None and alike and _ENDED.match(plain, end):
+        if said is not None and alike and _GOES_ON.match(plain, end):
             yield said.start("instead"), end, ""
 
 
@@ -222,6 +251,23 @@ def _is_users(plain: str, number: Number, *, measured: bool) -> bool:
     return to_whom or NUMBERED.search(plain, 0, number.start) is not None
 
 
+def _is_a_figure(plain: str, number: Number) -> bool:
+    """Whether a number without a unit is surely nobody's: "at least one", "four hundred", "one point five"."""
+    value = number.value or 0
+    return value != int(value) or value >= _SURELY_A_RATE or _BOUND_AHEAD.search(plain, 0, number.start) is not None
+
+
+def _counted(plain: str) -> list[Number]:
+    """The numbers of a text, and the users whom an article names: "sans l'utilisateur un"."""
+    found = list(numbers(plain))
+    for each in named(plain):
+        start = each.end - len(plain[each.start : each.end].split()[-1])
+        by_word = len(each.users) == 1 and str(whole(plain[start : each.end])) == each.users[0]
+        if by_word and not overlaps((start, each.end), ((number.start, number.end) for number in found)):
+            found.append(Number(value=Decimal(each.users[0]), start=start, end=each.end, form="foreign"))
+    return sorted(found, key=lambda number: number.start)
+
+
 def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
     """The spans of numbers in whose place the next one stands, with the words that say so, and what is to stand there.
 
@@ -231,9 +277,10 @@ def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
     """
     times = list(factors(plain))
     spans = [(each.start, each.end) for each in times]
-    counted = (each for each in numbers(plain) if not overlaps((each.start, each.end), spans))
+    all_said = _counted(plain)
+    counted = (each for each in all_said if not overlaps((each.start, each.end), spans))
     multiples = itertools.pairwise(sorted((*times, *counted), key=lambda each: each.start))
-    pairs = [*itertools.pairwise(numbers(plain)), *((a, b) for a, b in multiples if a.form == b.form == "times")]
+    pairs = [*itertools.pairwise(all_said), *((a, b) for a, b in multiples if a.form == b.form == "times")]
     for wrong, right in pairs:
         its, other = (unit_at(plain, each.end) if each.form != "times" else None for each in (wrong, right))
         said = _RETURN.fullmatch(plain, its.end if its else wrong.end, right.start)
@@ -245,17 +292,21 @@ def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
         user = plain[wrong.end : wrong.end + 1] in ("号", "號") or _is_users(plain, wrong, measured=other is not None)
         repeated = ahead.endswith(head) or (user and _ANOTHER_USER.fullmatch(head) is not None)
         doubled = any(map(str.isalpha, said["pause"] + said["more"]))
-        bounded = its is None and other is not None and not head and _BOUND_AHEAD.search(plain, 0, wrong.start)
-        if not (doubled or said["more"] or bounded) and said["said"].casefold() in _DENIES:
+        figure = its is None and other is not None and not user and (repeated if head else _is_a_figure(plain, wrong))
+        if not (doubled or said["more"] or figure) and said["said"].casefold() in _DENIES:
             continue  # "no service to 6, no service to 7", "con 10 W, no 20 W", but "at least one no two megabits"
         if its is not None and other is None:
             value = right.value or 0
             if not head and (value != int(value) or value >= _SURELY_A_RATE) and _ENDED.match(plain, right.end):
                 unit = plain[wrong.end : said.start("back")].rstrip()
                 yield wrong.start, right.end, plain[right.start : right.end] + unit
+        elif its and other and its.kind == other.kind and tail and not head and _GOES_ON.match(behind):
+            yield wrong.start, other.end, f"{plain[right.start : other.end]}{said['tail']}"  # "1 W each, no, wait, 2 W"
         elif repeated and behind.lstrip().startswith(tail):
+            # "without 3, uh, without 4", "al 3 no, al 8"
+            counts = head and said["said"].casefold() not in _DENIES and not re.fullmatch(_FILLED, said["said"])
             weighed = its is other is None and not user and _WEIGHT_AHEAD.search(plain, 0, wrong.start) is not None
-            paused = said["pause"] or said["means"] or doubled or (wrong.value or 0) >= MOST_USERS or weighed
+            paused = said["pause"] or said["means"] or doubled or counts or (wrong.value or 0) >= MOST_USERS or weighed
             measured = other is not None and not user and (its is None or its.kind == other.kind)
             measured |= wrong.form == right.form == "times"
             if measured and its is not None and not tail:
@@ -264,7 +315,8 @@ def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
             able = not user or head or (right.value or 0) < MOST_USERS
             alike = its is other and able and paused and (head or tail or weighed or not said["means"])
             if measured or (alike and _LIST_BEHIND.match(plain, right.end) is None):
-                yield wrong.start, right.start, ""
+                denied = _NOT_AHEAD.search(plain, 0, wrong.start) if measured else None  # "not 15 W, I mean 13 W"
+                yield denied.start("denies") if denied else wrong.start, right.start, ""
 
 
 _RULES = (_said_again, _taken_back, _confirmed, _not_meant, _not_who)

@@ -74,9 +74,10 @@ _AFTER_RE = deferred(
     rf"(?i)[\s-]*(?:{any_word('figures', 'bounds', 'ahead_of_behind')}\s+){{0,5}}"
     rf"(?P<word>{_any_of('at_least_behind', 'at_most_behind', 'exactly_behind')})(?!\s*(?:of\s+|is\s+)?[0-9])"
 )
+_POLITE = either("talk_forms", "assent", "polite")
 _LAST = "|".join(f"(?P<{bound}>{either('figures', 'bounds', f'{bound}_last')})" for bound in reversed(_BOUNDS))
 _LAST_WORD = deferred(  # "10 W, no more", "10 kbit/s, no less and no more"
-    rf"(?i),?\s*(?:{_LAST})(?=\s*(?:$|[.,;:!?)\uff0c。\uff1b、]))"
+    rf"(?i),?\s*(?:{_LAST})(?=\s*(?:$|[.,;:!?)\uff0c。\uff1b、]|(?:{AND}|{_POLITE})\b))"
 )
 _SHORTENED = deferred(r"(?i)\b(?:m[aá]x|m[ií]n|mind|höchst)\.")
 _LOOSE = deferred(r"(?i)(?:max|min)(?:imum)?\b")  # "maximum rate at 1 Mbit/s minimum" wishes first and bounds after
@@ -113,9 +114,10 @@ def comparison(text: str, start: int, end: int, *, kind: str, after: int) -> Com
     text = _without_stops(text)
     found = _before(text, start, end, kind=kind, after=after)
     behind = _AFTER_RE.match(text, end)
-    if found is not None and (behind is None or not _LOOSE.match(text, found[1])):
-        return Comparison(comparator=found[0], start=found[1], end=end)
     last = _LAST_WORD.match(text, end)
+    if found is not None and (behind is None or not _LOOSE.match(text, found[1])):
+        again = last.end() if last is not None and last[found[0]] else end  # "at most 10 W, no more"
+        return Comparison(comparator=found[0], start=found[1], end=again)
     if last is not None and behind is None:
         said: Comparator = next(bound for bound in _BOUNDS if last[bound])
         return Comparison(comparator=said, start=start, end=last.end())

@@ -57,6 +57,9 @@ _OVER = deferred(r"/(?P<below>[1-9][0-9]?)(?![0-9/])(?:\s+(?:of\s+an?|de|d'un))?
 _SCALED, _LISTED_AHEAD = deferred(r"[kKM](?![A-Za-z])"), deferred(rf"(?i)[0-9]\s*(?:,|&|和|、|\b{AND}\b)\s*$")
 _VAGUELY = deferred(r"[来多余几]")
 _THOUSANDFOLD = deferred(r"比特|字节|瓦(?!时)")
+_GROUPED_AHEAD = deferred(  # "en bloques de four"
+    rf"(?i)\b{any_word('figures', 'grouped', 'groups')}\s+{any_word('figures', 'grouped', 'joints')}\s+$"
+)
 _AS_FEW = deferred(rf"(?i)\b{any_word('figures', 'numbers', 'degrees')}\s+$")
 NUMBERED = deferred(
     rf"(?i)\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|{any_word('figures', 'numbers', 'joins', 'ors')}|&|/)\s*)*$"
@@ -239,7 +242,7 @@ def _in_words(text: str, match: re.Match[str], own: str) -> tuple[Number | None,
         number = _placed(text, match, said, places, language)
         if number is None:
             continue
-        measured = unit_at(text, number.end) is not None
+        measured = unit_at(text, number.end) is not None or _GROUPED_AHEAD.search(text, 0, number.start) is not None
         alone = said.value is not None or number.form == "words"
         if said.is_article:
             alone = text[number.start : number.end].lower() == "eines"

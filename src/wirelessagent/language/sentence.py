@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 
 from wirelessagent import plugins
 from wirelessagent.language import goals
-from wirelessagent.language.as_meant import as_meant
+from wirelessagent.language.as_meant import as_meant, taking_back
 from wirelessagent.language.constraints import read_constraints
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.mentions import mentions
@@ -17,7 +17,19 @@ from wirelessagent.language.order_model import Frame, frame_of, shipped_order_mo
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.sentence_model import START, Chances, Word, shipped_sentences
 from wirelessagent.language.stated import Reading
-from wirelessagent.language.text import WORD_OR_SIGN, Span, clauses, is_chinese, normalise, overlaps, unaccented
+from wirelessagent.language.text import (
+    AND,
+    WORD_OR_SIGN,
+    Span,
+    clause_end,
+    clause_start,
+    clauses,
+    is_chinese,
+    normalise,
+    overlaps,
+    unaccented,
+    written_over,
+)
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import (
     Found,
@@ -30,6 +42,7 @@ from wirelessagent.language.vocabulary import (
     respelt,
     units_of,
 )
+from wirelessagent.language.word_tables import deferred
 from wirelessagent.model.objective import Objective
 
 if TYPE_CHECKING:
@@ -41,15 +54,19 @@ _OF_AIMS = (
     "waste", "share",
 )  # fmt: skip
 """Concepts whose words say what is wanted, and not whether."""
+_AND, _AND_LAST = deferred(rf"(?i)\b(?:{AND})\b"), deferred(rf"(?i)\b(?:{AND})\s*$")
 
 
 class Sentence:
     """What an operator said, with everything that can be read off its words."""
 
     def __init__(
-        self, text: str, own: tuple[OwnWords, ...], *, names: Sequence[str] = (), max_power_w: float = 20.0
-    ) -> None:
+        self, text: str, own: tuple[OwnWords, ...], *, names: Sequence[str] = (), max_power_w: float = 20.0,
+        gone: Sequence[Span] = (),
+    ) -> None:  # fmt: skip
         said = as_meant(text)
+        for start, end in gone:
+            said = written_over(said, start, end, "")
         self.text, self.plain, self.language = text, normalise(said), language_of(text)
         self._own, self._names, self._max_power_w, self.quantities = own, names, max_power_w, parse_quantities(said)
         self.reading: Reading = read_constraints(
@@ -132,6 +149,33 @@ class Sentence:
                 rest = self.text[start:].strip(" ,;:.，；：。、")
                 yield (start, end), Sentence(rest, self._own, names=self._names, max_power_w=self._max_power_w)
 
+    def without_aims_taken_back(self) -> Sentence:
+        """An order without the aims in whose place it names others: "least power, no, wait, max total rate".
+
+        An aim reaches from the figure, the user, the clause or the "and" ahead of it to the next.
+        """
+        back, gone = list(taking_back(self.plain)), list[Span]()
+        marked = sorted([*((start, end) for start, end, _ in self._marked if back), *self.reading.masked, *back])
+        for start, end in back if back and self.chances.is_order else ():
+            next_ = min([clause_end(self.plain, end), *(begin for begin, _ in marked if begin >= end)])
+            meant = self.plain[end:next_]
+            able = _AND.match(meant.strip()) is None and self._is_aim(_AND_LAST.sub("", meant))
+            ends = [start, *(begin for begin, _ in reversed(marked) if begin < start)] if able else []
+            for last in ends:
+                ahead = max([clause_start(self.plain, last), *(to for _, to in marked if to <= last)])
+                ahead = max([ahead, *(match.end() for match in _AND.finditer(self.plain, ahead, last))])
+                if self._is_aim(self.plain[ahead:last]):
+                    gone += [(ahead, last), (start, end)]
+                    break
+        if not gone:
+            return self
+        return Sentence(self.text, self._own, names=self._names, max_power_w=self._max_power_w, gone=gone)
+
+    def _is_aim(self, words: str) -> bool:
+        """Whether some words of the sentence, by themselves, are likely to order an aim."""
+        said = Sentence(words, self._own).chances if words.strip() else None
+        return said is not None and said.is_order and max(said.kinds[name] for name in BUILT_IN) >= goals.ENOUGH
+
     @functools.cached_property
     def frame(self) -> Frame:
         """What stands around its wishes."""
@@ -165,7 +209,7 @@ def read_once(text: str, own: tuple[OwnWords, ...], context: Context | None) -> 
 
 @functools.lru_cache(maxsize=4)
 def _read(text: str, own: tuple[OwnWords, ...], names: tuple[str, ...], max_power_w: float) -> Sentence:
-    return Sentence(text, own, names=names, max_power_w=max_power_w)
+    return Sentence(text, own, names=names, max_power_w=max_power_w).without_aims_taken_back()
 
 
 def own_words() -> tuple[OwnWords, ...]:
