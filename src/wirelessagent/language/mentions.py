@@ -197,12 +197,13 @@ def _own_names(plain: str, names: Sequence[str]) -> Iterator[Mention]:
             yield Mention(role="named", users=(name,), start=match.start(), end=match.end())
 
 
-def _by_place(plain: str, count: int) -> Iterator[Mention]:
+@functools.lru_cache(maxsize=64)
+def _by_place(plain: str, count: int) -> tuple[Mention, ...]:
     """Users by an odd or an even number, every second, the first or the last few, and from one on or up to one.
 
     Most need to be counted.
     """
-    matches = list(BY_PLACE.finditer(plain))
+    matches, found = list(BY_PLACE.finditer(plain)), list[Mention]()
     for match in matches:
         group, words = next((name, words) for name, words in match.groupdict().items() if words)
         if group in _TOO and not any(other[_TOO[group]] for other in matches):
@@ -217,7 +218,8 @@ def _by_place(plain: str, count: int) -> Iterator[Mention]:
         }[group.rstrip("_")]  # fmt: skip
         if 0 < first <= last <= max(count, number):
             users = tuple(str(user) for user in range(first, last + 1, step))
-            yield Mention(role="named", users=users, start=match.start(), end=match.end())
+            found.append(Mention(role="named", users=users, start=match.start(), end=match.end()))
+    return tuple(found)
 
 
 @functools.lru_cache(maxsize=64)
