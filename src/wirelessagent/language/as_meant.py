@@ -14,7 +14,6 @@ import re
 from collections.abc import Iterator, Mapping
 from decimal import Decimal
 
-from wirelessagent.language.comparators import WITH
 from wirelessagent.language.mentions import (
     ANY_NOUN,
     GIVEN_TO,
@@ -92,7 +91,9 @@ _CARRIER_BEHIND = deferred(rf"(?i)\s*{any_word('figures', 'grouped', 'carriers')
 _ITEMS_AHEAD = deferred(rf"(?i){ANY_NOUN}\s+{_NUMBER}(?:\s*,?\s*{_NUMBER})*\s*,?\s*$")
 _JOINS = deferred(rf"(?i)(?:{AND})\b")
 _ITEM_BEHIND = deferred(rf"(?i)\s*,?\s*(?:(?:{AND})\s+)?{_NUMBER}")
-_CORRECTS, _MEANS, _PREFERS = (either("figures", "one", name) for name in ("corrects", "means", "prefers"))
+_CORRECTS, _MEANS, _PREFERS, _WAITS = (
+    either("figures", "one", name) for name in ("corrects", "means", "prefers", "waits")
+)
 _JOINT = rf"(?:{JOINT_WORDS}|\b{any_word('figures', 'users', 'to')}\b|[~/&+、到至和与]|(?<=[0-9])[-–](?=[0-9]))"
 _FILLED, _CONFIRMS = (either("figures", "one", name, number=WORD_NUMBER) for name in ("fillers", "confirms"))
 _TOKEN = rf"(?>{WORD})"
@@ -110,14 +111,15 @@ _BACK = deferred(
 _TAKES_BACK = deferred(
     rf"(?i){_PAUSE}*+(?P<said>{_MEANS}|{_CORRECTS})(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}|是))*+)"
 )
+_BREAK_BEHIND = deferred(_BREAK)
 _INSTEAD = deferred(
     rf"(?i)(?:\s*{_TOKEN}){{0,3}}?\s*[,\uff0c]?\s*(?P<instead>(?:{either('figures', 'one', 'instead_of')})\s*)"
 )
 _BOUND_BEHIND = "|".join(either("figures", "bounds", name) for name in ("at_least_behind", "at_most_behind"))
-_BOUND_AHEAD = deferred(rf"(?i)(?:{any_word('figures', 'bounds', 'at_least', 'at_most')}|\b{WITH})\s*$")
 _WEIGHT_AHEAD = deferred(rf"(?i)(?:{either('figures', 'users', 'weighs')})\s*$")
 _ENDED = deferred(r"\s*(?:$|[,.;:!?)\uff0c\uff1b。、](?![0-9]))")
 _GOES_ON = deferred(rf"(?i){_ENDED.pattern}|\s+(?:{AND})\b(?!\s*{_NUMBER})")
+_ENDS = deferred(rf"(?i)(?:\s*(?:{_FILLED}))*(?:{_GOES_ON.pattern.removeprefix('(?i)')})")
 _NOT_AHEAD = deferred(
     rf"(?i)(?:^|[\s,;:.\uff0c。；])(?P<denies>(?:{either('figures', 'one', 'not_who')})\s*(?:{GIVEN_TO}\s*)*)$"
 )
@@ -162,9 +164,16 @@ def taking_back(plain: str) -> Iterator[Span]:
     """
     for match in _TAKES_BACK.finditer(plain):
         said, filled = match["said"].casefold(), plain.endswith("   ", 0, match.start("said"))  # "euh non"
+        more = match["more"].strip(" ,;\uff0c；、-–—….")
         if re.fullmatch(_PREFERS, said) and not plain[match.start() : match.start("said")].strip():
             continue  # "el mejor caudal"
-        if filled or match["more"].strip() or (said not in _DENIES and not re.fullmatch(_FILLED, said)):
+        if more.casefold().endswith(_DENIES) or (re.fullmatch(_WAITS, said) and not more):
+            continue  # "sorry, no min power", "max rate, wait, least power matters, too"
+        loose = said.split()[0] not in _DENIES and not said.startswith("不")
+        broken = match["more"].strip() or _BREAK_BEHIND.match(plain, match.end())
+        if loose and not broken:
+            continue  # "scrap that least power setting"
+        if filled or more or (said not in _DENIES and not re.fullmatch(_FILLED, said)):
             yield match.span()
 
 
@@ -186,15 +195,15 @@ def _confirmed(plain: str) -> Iterator[tuple[int, int, str]]:
         again = _AGAIN.fullmatch(plain, end, other.start) if one.value == other.value is not None else None
         if again is None or (its is not None and unit is not None and its.kind != unit.kind):
             continue
-        head, ahead = again["head"].casefold().strip(), plain[: one.start].casefold().rstrip()
-        alone = its is not None is not unit and _GOES_ELSEWHERE.match(plain, last) is None  # "14 watts 14 watts"
+        head = again["head"].casefold().strip()
+        elsewhere = _ENDS.match(plain, last) is None  # "2 W, yes, 2 W for the circuits"
         counted = unit is None and _ANOTHER_USER.match(plain[last:].lstrip()) is not None  # "yes 2 users are out"
-        if not (again["yes"] or alone) or counted or not (ahead.endswith(head) or _ANOTHER_USER.fullmatch(head)):
+        alone = its is not None is not unit and not head  # "14 watts 14 watts"
+        if elsewhere or counted or not (again["yes"] or alone):
             continue
-        if its is not None or (unit is None and _OF_USERS.search(plain, 0, one.start)):
+        user = its is unit is None and _OF_USERS.search(plain, 0, one.start) and _ANOTHER_USER.fullmatch(head or "user")
+        if (its is not None and not head) or user:
             yield end, last, ""
-        elif unit is not None and _OF_USERS.search(plain, 0, one.start) is None:
-            yield one.start, other.start, ""
 
 
 def _said_again(plain: str) -> Iterator[tuple[int, int, str]]:
@@ -251,10 +260,10 @@ def _is_users(plain: str, number: Number, *, measured: bool) -> bool:
     return to_whom or NUMBERED.search(plain, 0, number.start) is not None
 
 
-def _is_a_figure(plain: str, number: Number) -> bool:
-    """Whether a number without a unit is surely nobody's: "at least one", "four hundred", "one point five"."""
+def _is_a_figure(number: Number) -> bool:
+    """Whether a number without a unit is surely nobody's: "four hundred", "one point five"."""
     value = number.value or 0
-    return value != int(value) or value >= _SURELY_A_RATE or _BOUND_AHEAD.search(plain, 0, number.start) is not None
+    return value != int(value) or value >= _SURELY_A_RATE
 
 
 def _counted(plain: str) -> list[Number]:
@@ -292,9 +301,15 @@ def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
         user = plain[wrong.end : wrong.end + 1] in ("号", "號") or _is_users(plain, wrong, measured=other is not None)
         repeated = ahead.endswith(head) or (user and _ANOTHER_USER.fullmatch(head) is not None)
         doubled = any(map(str.isalpha, said["pause"] + said["more"]))
-        figure = its is None and other is not None and not user and (repeated if head else _is_a_figure(plain, wrong))
+        figure = (
+            its is None
+            and other is not None
+            and not user
+            and not said["pause"].strip()
+            and (repeated if head else _is_a_figure(wrong))
+        )
         if not (doubled or said["more"] or figure) and said["said"].casefold() in _DENIES:
-            continue  # "no service to 6, no service to 7", "con 10 W, no 20 W", but "at least one no two megabits"
+            continue  # "no service to 6, no service to 7", "con 10 W, no 20 W", but "four hundred no five hundred kbps"
         if its is not None and other is None:
             value = right.value or 0
             if not head and (value != int(value) or value >= _SURELY_A_RATE) and _ENDED.match(plain, right.end):

@@ -10,7 +10,7 @@ import re
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from wirelessagent.language.text import AND, CLAUSE_END, USER_NOUN, Phrases, clause_start, is_chinese
+from wirelessagent.language.text import AND, CLAUSE_END, USER_NOUN, Phrases
 from wirelessagent.language.vocabulary import one_edit
 from wirelessagent.language.word_tables import any_word, deferred, either, table, words_of
 
@@ -62,7 +62,6 @@ _BEFORE = Phrases(
     rf"|(?P<exactly>{_any_of('exactly')})|(?P<above>{_any_of('above')})|(?P<below>{_any_of('below')})"
 )
 _NEGATION = deferred(rf"(?i){either('moods', 'negation', 'clause')}|{either('figures', 'bounds', 'forbids')}")
-_DENIED_AHEAD = deferred(rf"{_NEGATION.pattern}|{either('figures', 'bounds', 'nor')}")
 _NOBODY = words_of("figures", "bounds", "nobody")
 _ASIDE = deferred(  # "nobody, and I mean nobody, should fall under 1 Mbit/s"
     rf"(?i)(?:{either('figures', 'users', 'nobody')})(?:\s*[,\uff0c][^,\uff0c.;:!?。]{{1,40}}){{1,2}}[,\uff0c]\s*$"
@@ -97,6 +96,9 @@ WITH = r"(?:with|con|avec|mit|bei)\b"
 """Words behind which the noun ahead is one of a wish: "max rate with 1 Mbit/s"."""
 _WISH_WITH = deferred(rf"{_RATE_RE.pattern}\s+(?:\w+\s+)?{WITH}")
 _MOST_WITH = deferred(rf"(?i)(?<![0-9] )(?:{either('figures', 'bounds', 'the_most')})\s+{WITH}")
+_SOMEBODY = deferred(
+    rf"(?i){USER_NOUN}|{either('figures', 'users', 'everybody')}|{either('figures', 'users', 'given')}"
+)
 _CLAUSE = deferred(CLAUSE_END)
 
 
@@ -124,10 +126,7 @@ def comparison(text: str, start: int, end: int, *, kind: str, after: int) -> Com
     others = _RATE_RE if kind == "power" else _POWER_RE  # "max" is not the figure's where "max rate" begins
     if behind is not None and others.match(text[behind.end() : behind.end() + 12].lstrip()) is None:
         word = " ".join(behind["word"].lower().split())
-        denied = _is_denied_behind(text, behind.end()) or (
-            not is_chinese(word) and _DENIED_AHEAD.search(text, clause_start(text, start, after), start) is not None
-        )  # "1兆以下不行", "kein Nutzer … 4 Mbit/s überschreitet"
-        turned = word in _TURNED and denied
+        turned = word in _TURNED and _is_denied_behind(text, behind.end())
         bound = _TURNED_ROUND[_BEHIND[word]] if turned else _BEHIND[word]
         return Comparison(comparator=bound, start=start, end=behind.end())
     return Comparison(comparator=None, start=start, end=end)
@@ -147,6 +146,9 @@ def _before(text: str, start: int, end: int, *, kind: str, after: int) -> tuple[
         gap = text[match.end() : start]
         is_filler = _GAP.match(gap) is not None and all(word.lower() in BETWEEN for word in _WORD.findall(gap))
         wish = kind == "rate" and _MOST_WITH.match(text, match.start())  # "bits per joule at the maximum with 1 Mbit/s"
+        wish = (
+            wish and _SOMEBODY.search(text, clause_start, match.start()) is None
+        )  # "each at the maximum with 1 Mbit/s"
         if not is_filler or wish or _foreign_noun(gap, kind):
             continue
         for bound in _BOUNDS:

@@ -35,6 +35,7 @@ _GIVEN_ALIKE = Beside(
         rf"(?=\s*(?:$|[,.;:!?)\uff0c。；、]|(?:{AND})\b))"
     ),
 )
+_UNLIMITED = deferred(rf"(?i){either('figures', 'users', 'free')}")
 _FREE = deferred(
     rf"(?i)\s*号?\s*[,(\uff0c]\s*[^,;.()\uff0c；。]*?(?:{either('figures', 'users', 'free')})[^,;.()\uff0c；。]*"
 )
@@ -176,6 +177,9 @@ class Allotments:
     def _likeliest(self, mention: Mention) -> str:
         """What somebody is there for; without certainty it is unclear."""
         chances, said = self._judged.user(mention), self._judged.said_of(mention)
+        clause = self._plain[slice(*self._clause_of(mention))]
+        if self._is_out_of_all(mention) and (lifted_in(clause) or _UNLIMITED.search(clause)):
+            return "unclear"  # "no limit on anyone except user 3"
         self._lifted[mention] = self._goes_without(mention)
         if said["exempt"] > _SURE_OF_A_ROLE or self._lifted[mention] or self._is_free(mention):
             return "exempt"  # whatever rate stands beside it is that of all others

@@ -17,7 +17,7 @@ from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.request import numbered
 from wirelessagent.language.stated import CARRIERS, Beside, shares_power
-from wirelessagent.language.text import Span, clause_start
+from wirelessagent.language.text import Span
 from wirelessagent.language.word_tables import any_word, deferred, either
 
 # The share of those who have a rate or a weight, among all users named and among those of each role.
@@ -35,8 +35,6 @@ _HEADS = {
 """What may stand ahead of the first of a series, "floors in Mbit/s: u1 0.5, u2 0.75", or behind its last, "as caps"."""
 _UNBOUND = deferred(rf"(?i)\s*(?:$|[^\w\s]|{GIVEN_TO}|{JOINT_WORDS}|{_AS})")
 _GOES_ON = deferred(rf"(?i)\s*[,)\uff0c]\s*(?:{either('figures', 'users', 'takes')})")
-_WEIGHS = deferred(rf"(?i){either('figures', 'users', 'weighs')}")
-_COMPARED = deferred(rf"(?i)(?:{either('figures', 'users', 'compared')})\s*(?:{GIVEN_TO}\s*)*$")
 _CEILINGS = ("max_power_w", "subcarrier_max_power_w")
 _BOUNDED = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
 _ONCE, _MOST_POWERS, _HARDLY = ("max_power_w", "circuit_power_w", "subcarrier_max_power_w"), 4, 0.01
@@ -85,16 +83,10 @@ class Judged:
         return likely([shipped_roles().scores("link", features)[0] for features in seen], everyone)
 
     def _is_aside(self, mention: Mention, start: int) -> bool:
-        """Whether what begins here is not said of somebody whom it passes: of those that others are compared with.
-
-        "User 5 counts twice as much as the others and gets …", "all but user 5, who needs 1 Mbit/s, get …".
-        """
+        """Whether what begins here is not said of somebody excepted: "all but user 5, who needs 1 Mbit/s, get …"."""
         plain, who = self._look.plain, WHO.match(self._look.plain, mention.end)
-        if who and who.end() <= start and _GOES_ON.match(plain, who.end()):
-            return EXCEPTED.search(plain, 0, mention.start) is not None
-        ahead = clause_start(plain, mention.start)
-        weighs = mention.role == "others" and _WEIGHS.search(plain, ahead, mention.start)
-        return bool(weighs and _COMPARED.search(plain, ahead, mention.start))
+        passed = who is not None and who.end() <= start and _GOES_ON.match(plain, who.end()) is not None
+        return passed and EXCEPTED.search(plain, 0, mention.start) is not None
 
     def figure(self, index: int) -> Mapping[str, float]:
         """How likely a power, a rate or a ratio has each role."""

@@ -208,8 +208,13 @@ def _by_place(plain: str, count: int) -> tuple[Mention, ...]:
         group, words = next((name, words) for name, words in match.groupdict().items() if words)
         if group in _TOO and not any(other[_TOO[group]] for other in matches):
             continue
+        if group.endswith("___") and any(len(each.users) > 2 and each.end <= match.start() for each in named(plain)):
+            continue  # "users 5 to 8, the first two at 1 Mbit/s"
         said = [number for part in _ITEM.finditer(words) if (number := _number(part.group())) is not None]
-        number = max(said, default=2)
+        several = (
+            [each for each in said if each > 1] if group.startswith(("first", "last")) else said
+        )  # "die ersten vier"
+        number = max(several, default=2)
         first, last, step = {
             "odd": (1, count, 2), "even": (2, count, 2), "nth": (max(number, 2), count, max(number, 2)),
             "first": (1, number, 1), "last": (count - number + 1, count, 1), "up_to": (1, number, 1),
@@ -350,6 +355,7 @@ def _distributed(plain: str, found: Sequence[Mention]) -> list[Mention]:
         last, between = (kept[-1], plain[kept[-1].end : mention.start]) if kept else (mention, ".")
         several = len(last.users) > 1 and _INCLUSIVE.fullmatch(between) is not None
         ranged = len(last.users) > 1 and _BEFORE_EACH.fullmatch(between) and _RANGED_AHEAD.search(plain, 0, last.start)
+        ranged = ranged and not EXCEPTED.search(plain, 0, last.start)  # "apart from users 3 and 4 everybody …"
         again = {*mention.users} < {*last.users} and bool(between.strip(" ,("))  # "users 2 to 5 (5 included)"
         if (mention.role in ("everybody", "pronoun") and ranged) or (again and several):
             kept[-1] = replace(last, end=mention.end)

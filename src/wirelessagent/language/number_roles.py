@@ -270,7 +270,9 @@ def _chances(first: Look, view: View) -> _Roles:
     if _OF_WEIGHTS.search(plain) is None:  # what doubles there is a rate that was said before
         first_rate = min((figure.end for figure in first.figures if figure.kind == "rate"), default=len(plain))
         doubles = [n for n in chances if n.form == "times" and n.start >= first_rate]
-        chances |= {n: moved(chances[n], ("weight", "rate"), "multiple") for n in doubles}
+        for number in doubles:  # "anderthalb für Nutzer 3" may be a rate
+            whole = number.value is not None and number.value % 1 == 0
+            chances[number] = moved(chances[number], ("weight", "rate") if whole else ("weight",), "multiple")
     return chances
 
 

@@ -159,7 +159,8 @@ class Sentence:
         for start, end in back if back and self.chances.is_order else ():
             next_ = min([clause_end(self.plain, end), *(begin for begin, _ in marked if begin >= end)])
             meant = self.plain[end:next_]
-            able = _AND.match(meant.strip()) is None and self._is_aim(_AND_LAST.sub("", meant))
+            denied = any(name.partition(":")[0] in ("negation", "refusal", "contrast") for name, _ in classes_in(meant))
+            able = not denied and _AND.match(meant.strip()) is None and self._is_aim(_AND_LAST.sub("", meant))
             ends = [start, *(begin for begin, _ in reversed(marked) if begin < start)] if able else []
             for last in ends:
                 ahead = max([clause_start(self.plain, last), *(to for _, to in marked if to <= last)])
