@@ -35,6 +35,7 @@ _GIVEN_ALIKE = Beside(
         rf"(?=\s*(?:$|[,.;:!?)\uff0c。；、]|(?:{AND})\b))"
     ),
 )
+_NOBODY = deferred(rf"(?i){either('figures', 'users', 'nobody')}")
 _UNLIMITED = deferred(rf"(?i){either('figures', 'users', 'free')}")
 _FREE = deferred(
     rf"(?i)\s*号?\s*[,(\uff0c]\s*[^,;.()\uff0c；。]*?(?:{either('figures', 'users', 'free')})[^,;.()\uff0c；。]*"
@@ -198,7 +199,8 @@ class Allotments:
     def _is_out_of_all(self, mention: Mention) -> bool:
         """Whether somebody is excepted from everybody, in one clause."""
         start, end = self._clause_of(mention)
-        everybody = any(each.role == "everybody" and start <= each.start < end for each in self._found)
+        among = (each for each in self._found if each.role == "everybody" and start <= each.start < end)
+        everybody = any(_NOBODY.search(self._plain[each.start : each.end]) is None for each in among)
         return everybody and EXCEPTED.search(self._plain, start, mention.start) is not None
 
     def _goes_without(self, mention: Mention) -> frozenset[str]:

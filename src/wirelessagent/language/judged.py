@@ -33,7 +33,8 @@ _HEADS = {
     for said in [any_word("figures", "bounds", name)]
 }
 """What may stand ahead of the first of a series, "floors in Mbit/s: u1 0.5, u2 0.75", or behind its last, "as caps"."""
-_UNBOUND = deferred(rf"(?i)\s*(?:$|[^\w\s]|{GIVEN_TO}|{JOINT_WORDS}|{_AS})")
+_HEAD = any_word("figures", "bounds", "floors_of", "caps_of")
+_UNBOUND = deferred(rf"(?i)\s*(?:$|[^\w\s]|{GIVEN_TO}|{JOINT_WORDS}|(?:{_AS})\s*{_HEAD}(?!\w))")
 _GOES_ON = deferred(rf"(?i)\s*[,)\uff0c]\s*(?:{either('figures', 'users', 'takes')})")
 _CEILINGS = ("max_power_w", "subcarrier_max_power_w")
 _BOUNDED = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}

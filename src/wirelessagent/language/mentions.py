@@ -208,7 +208,7 @@ def _by_place(plain: str, count: int) -> tuple[Mention, ...]:
         group, words = next((name, words) for name, words in match.groupdict().items() if words)
         if group in _TOO and not any(other[_TOO[group]] for other in matches):
             continue
-        if group.endswith("___") and any(len(each.users) > 2 and each.end <= match.start() for each in named(plain)):
+        if group.endswith("___") and any(len(each.users) > 1 and each.end <= match.start() for each in named(plain)):
             continue  # "users 5 to 8, the first two at 1 Mbit/s"
         said = [number for part in _ITEM.finditer(words) if (number := _number(part.group())) is not None]
         several = (
@@ -333,8 +333,9 @@ def _but_for(plain: str, found: Sequence[Mention]) -> list[Mention]:
     for each in found:
         if kept and each.start < kept[-1].end:  # "odd users other than 7"
             continue
-        behind = _BUT_FOR.match(plain, each.end) if len(each.users) > 1 else None
-        said = behind or (_ALL_BUT.search(plain, 0, each.start) if len(each.users) > 1 else None)
+        several = len(each.users) > 1 and not any(_NOBODY.finditer(plain[clause_start(plain, each.start) : each.start]))
+        behind = _BUT_FOR.match(plain, each.end) if several else None
+        said = behind or (_ALL_BUT.search(plain, 0, each.start) if several else None)
         without = _listed(said["one"] or said["other"]) if said and unit_at(plain, said.end()) is None else ()
         if said and without and {*without} < {*each.users}:
             users = tuple(user for user in each.users if user not in without)

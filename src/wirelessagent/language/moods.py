@@ -215,7 +215,8 @@ def dropped_in(plain: str, context: Context | None) -> tuple[tuple[str, ...], tu
         held = () if context is None or alone else tuple(context.constraints)
         meant = (name for name in CONSTRAINTS if name in held and any(name in _GENERAL[each] for each in general))
         named = [*meant] or ["max_power_w"]
-        named = [] if len(named) > 1 and "all" not in general and not alone else named  # which cap, the talk tells
+        if len(named) > 1 and "all" not in general:  # which cap, the talk tells, where none is one of rates
+            named = [name for name in named if name == "max_rate_bps"]
     return tuple(named), (*found.values(), *alone)
 
 

@@ -56,6 +56,7 @@ _OF_POWER_AHEAD = deferred(rf"{_POWER_AHEAD}\s*$")
 _AGAIN = deferred(rf"(?i)[^,;.]*\b(?:{any_word('figures', 'shares_of', 'again')})\b")
 _CHANGED = deferred(rf"(?i)\s*(?:(?P<more>{_MORE})|(?P<less>{_LESS}))(?:\s+{_THAN})?")
 _CHANGED_AHEAD = deferred(rf"(?:(?P<more>{_MORE_AHEAD})|(?P<less>{_LESS_AHEAD}))\s*$")
+_DENIED = deferred(rf"(?i){either('moods', 'negation', 'clause')}")
 _MORE_THAN_IT = deferred(
     rf"(?i)\s*(?:(?P<more>{_MORE})|(?P<less>{_LESS}))\s+{any_word('figures', 'shares_of', 'than_it')}(?!\w)"
 )
@@ -99,6 +100,8 @@ def _come_to(plain: str) -> Iterator[tuple[int, int, str]]:
         changed = than or apart  # "user 4 100 kbit/s more than that", 用户4比这多100k
         if changed and one.kind == other.kind and (changed["more"] or other.value < one.value):
             start, end = (other.start, than.end()) if than else (changed.start(), other.end)
+            if _DENIED.search(plain, one.end, start):  # "user 5 not 1 Mbit/s more than that"
+                continue
             yield start, end, _written(one, 1 + (1 if changed["more"] else -1) * other.value / one.value)
             continue
         below, off = (pattern.fullmatch(plain, one.end, other.start) for pattern in (_LESS_THAN, _TAKEN_OFF))

@@ -26,7 +26,7 @@ from wirelessagent.language.moods import named_in
 from wirelessagent.language.number_words import cardinals, german_value, plain_word
 from wirelessagent.language.numerals import Number, factors, numbers
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.text import AND, Phrases, Span, clause_end, clause_start, is_chinese, is_within, overlaps
+from wirelessagent.language.text import Phrases, Span, clause_end, clause_start, is_chinese, is_within, overlaps
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.word_tables import deferred, either, languages_with, table, words_of
 
@@ -202,7 +202,10 @@ _SHARED = Beside(
     ),
     deferred(rf"(?i)(?:\s++|{_FULL})*+(?:{_BUDGET})\b(?:\s+(?:budget|limit))?|的?(?:发射|总)?(?:功率|预算)(?!放大)"),
 )
-_AND = re.compile(rf"(?i)\b(?:{AND})\b")
+_EACH_CARRIER = rf"(?:{either('figures', 'shared', 'per')})\s*子?(?:{either('figures', 'bounds', 'carriers')})"
+_PER_CARRIER = Beside(
+    deferred(rf"(?i){_EACH_CARRIER}[^,;.\uff0c。0-9]{{0,16}}$"), deferred(rf"(?i)\s*(?:\w+\s+)?{_EACH_CARRIER}")
+)
 _UNUSED = deferred(rf"(?i)\s*(?:{either('figures', 'shared', 'unused')})")
 
 
@@ -312,13 +315,10 @@ class Reading:
         span = start, unused.end() if unused else end
         self.masked.append(span)
         self.spoken_for.append(span)
-        ahead, behind = (
-            self.plain[clause_start(self.plain, start) : start],
-            self.plain[end : clause_end(self.plain, end)],
-        )
-        around = _AND.split(ahead)[-1], _AND.split(behind)[0]  # not "half of it and no subcarrier unused"
-        carriers = any(CARRIERS.search(part) and not any(map(str.isdigit, part)) for part in around)
+        carriers = _PER_CARRIER.is_at(self.plain, start, end, clause_start(self.plain, start))
         name = "subcarrier_max_power_w" if carriers else "max_power_w"
+        if unused and figure.comparator == "at_most":
+            self.doubt("share", text=figure.text)  # what is radiated at least
         self.take(name, max_power_w * (1 - figure.value if unused else figure.value), figure)
 
     def changes_by(self, figure: Quantity) -> bool:
