@@ -145,10 +145,9 @@ def _before(text: str, start: int, end: int, *, kind: str, after: int) -> tuple[
     for match in reversed(list(_BEFORE.finditer(text, clause_start, start))):
         gap = text[match.end() : start]
         is_filler = _GAP.match(gap) is not None and all(word.lower() in BETWEEN for word in _WORD.findall(gap))
-        wish = kind == "rate" and _MOST_WITH.match(text, match.start())  # "bits per joule at the maximum with 1 Mbit/s"
-        wish = (
-            wish and _SOMEBODY.search(text, clause_start, match.start()) is None
-        )  # "each at the maximum with 1 Mbit/s"
+        # "bits per joule at the maximum with 1 Mbit/s", but not "each at the maximum with 1 Mbit/s"
+        most = kind == "rate" and _MOST_WITH.match(text, match.start()) is not None
+        wish = most and _SOMEBODY.search(text, clause_start, match.start()) is None
         if not is_filler or wish or _foreign_noun(gap, kind):
             continue
         for bound in _BOUNDS:

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from wirelessagent.language.comparators import WITH
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
 from wirelessagent.language.judged import Judged
-from wirelessagent.language.mentions import ARTICLES, EXCEPTED, WITHOUT, Mention, Role
+from wirelessagent.language.mentions import ARTICLES, EXCEPTED, NOBODY, WITHOUT, Mention, Role
 from wirelessagent.language.moods import lifted_in, may_be_lifted
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
@@ -35,7 +35,6 @@ _GIVEN_ALIKE = Beside(
         rf"(?=\s*(?:$|[,.;:!?)\uff0c。；、]|(?:{AND})\b))"
     ),
 )
-_NOBODY = deferred(rf"(?i){either('figures', 'users', 'nobody')}")
 _UNLIMITED = deferred(rf"(?i){either('figures', 'users', 'free')}")
 _FREE = deferred(
     rf"(?i)\s*号?\s*[,(\uff0c]\s*[^,;.()\uff0c；。]*?(?:{either('figures', 'users', 'free')})[^,;.()\uff0c；。]*"
@@ -180,7 +179,7 @@ class Allotments:
         chances, said = self._judged.user(mention), self._judged.said_of(mention)
         clause = self._plain[slice(*self._clause_of(mention))]
         if self._is_out_of_all(mention) and (lifted_in(clause) or _UNLIMITED.search(clause)):
-            return "unclear"  # "no limit on anyone except user 3"
+            return "unclear"  # "no limit on anyone except user 3", "lift the least rate of all but user 3"
         self._lifted[mention] = self._goes_without(mention)
         if said["exempt"] > _SURE_OF_A_ROLE or self._lifted[mention] or self._is_free(mention):
             return "exempt"  # whatever rate stands beside it is that of all others
@@ -200,14 +199,13 @@ class Allotments:
         """Whether somebody is excepted from everybody, in one clause."""
         start, end = self._clause_of(mention)
         among = (each for each in self._found if each.role == "everybody" and start <= each.start < end)
-        everybody = any(_NOBODY.search(self._plain[each.start : each.end]) is None for each in among)
+        everybody = any(NOBODY.search(self._plain[each.start : each.end]) is None for each in among)
         return everybody and EXCEPTED.search(self._plain, start, mention.start) is not None
 
     def _goes_without(self, mention: Mention) -> frozenset[str]:
         """The limits that are lifted where all that is said of somebody lifts them: "user 6 no guarantee"."""
         start, end = self._clause_of(mention)
-        none = self._has_figures(start, end) or self._is_out_of_all(mention)  # "lift the least rate of all but user 3"
-        lifted = frozenset[str](() if none else lifted_in(self._plain[start:end]))
+        lifted = frozenset[str](() if self._has_figures(start, end) else lifted_in(self._plain[start:end]))
         return lifted if lifted <= {*_RATES, "all", "ceilings"} else frozenset()
 
     def _is_free(self, mention: Mention) -> bool:

@@ -142,7 +142,7 @@ WHO = deferred(
     rf"(?i)\s*(?:{_EXCEPTED_BEHIND})?\s*[,(\uff0c]?\s*(?:{either('figures', 'users', 'relative')})[^,;.()\uff0c；。]*"
 )
 """What more is said of somebody excepted: "all but user 5, who needs 1 Mbit/s, …"."""
-_NOBODY = Phrases(either("figures", "users", "nobody"))
+NOBODY = Phrases(either("figures", "users", "nobody"))
 _INCLUSIVE = deferred(rf"(?i)(?:\s*[,(\uff0c]?\s*{_INCLUDED}\s*\)?,?)?\s*")
 _BEFORE_EACH = deferred(rf"{_INCLUSIVE.pattern},?\s*(?:(?:{either('figures', 'users', 'takes')})\s+)?")
 _EACH_OF = deferred(rf"(?i)(?:{either('figures', 'users', 'each_of')})\s*{ANY_NOUN}?\s*(?:from|de|von|entre)?\s*$")
@@ -333,7 +333,7 @@ def _but_for(plain: str, found: Sequence[Mention]) -> list[Mention]:
     for each in found:
         if kept and each.start < kept[-1].end:  # "odd users other than 7"
             continue
-        several = len(each.users) > 1 and not any(_NOBODY.finditer(plain[clause_start(plain, each.start) : each.start]))
+        several = len(each.users) > 1 and not NOBODY.search(plain[clause_start(plain, each.start) : each.start])
         behind = _BUT_FOR.match(plain, each.end) if several else None
         said = behind or (_ALL_BUT.search(plain, 0, each.start) if several else None)
         without = _listed(said["one"] or said["other"]) if said and unit_at(plain, said.end()) is None else ()
@@ -363,7 +363,7 @@ def _distributed(plain: str, found: Sequence[Mention]) -> list[Mention]:
             continue
         while len(mention.users) > 1 and kept and kept[-1].role == "everybody":
             each = kept[-1]
-            denied = _NOBODY.search(plain[each.start : each.end])  # which is read elsewhere
+            denied = NOBODY.search(plain[each.start : each.end])  # which is read elsewhere
             if denied or _OUT_OF_THOSE.fullmatch(plain, each.end, mention.start) is None:
                 break
             mention = replace(mention, start=kept.pop().start)

@@ -155,8 +155,10 @@ class Sentence:
         An aim reaches from the figure, the user, the clause or the "and" ahead of it to the next.
         """
         back, gone = list(taking_back(self.plain)), list[Span]()
-        marked = sorted([*((start, end) for start, end, _ in self._marked if back), *self.reading.masked, *back])
-        for start, end in back if back and self.chances.is_order else ():
+        if not back or not self.chances.is_order:
+            return self
+        marked = sorted([*((start, end) for start, end, _ in self._marked), *self.reading.masked, *back])
+        for start, end in back:
             next_ = min([clause_end(self.plain, end), *(begin for begin, _ in marked if begin >= end)])
             meant = self.plain[end:next_]
             denied = any(name.partition(":")[0] in ("negation", "refusal", "contrast") for name, _ in classes_in(meant))
