@@ -85,6 +85,17 @@ def test_where_no_limit_holds_a_multiple_is_one_of_the_cells_power(said: str, po
     assert noted == (power_w > 20)
 
 
+@pytest.mark.parametrize("said", ["Triple the power limit", "Verdreifache die Leistungsgrenze"])
+def test_a_multiple_is_one_of_the_limit_that_is_named(said: str) -> None:
+    held, _ = talk("highest total rate, at most 1 W, blocks of 4 subcarriers", "blocks of 12", said)
+    assert held == {"max_power_w": pytest.approx(3.0), "resource_block_group_size": 12.0}
+
+
+def test_a_share_of_a_limit_that_is_named_is_one_of_it_though_the_cell_may_radiate_less() -> None:
+    held, _ = talk("highest total rate, at most 24 W", "cut the power limit by a quarter")
+    assert held == {"max_power_w": pytest.approx(18.0)}
+
+
 def test_a_doubled_power_is_supposed_as_it_is_said() -> None:
     held, turns = talk("highest total rate, at most 5 W", "what happens if I double the power?")
     assert held == {"max_power_w": 5.0}

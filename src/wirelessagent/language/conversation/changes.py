@@ -16,7 +16,7 @@ from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.conversation.anchors import Anchor
 from wirelessagent.language.conversation.possible import LIMITS, POWERS, RATES, Change, Group, Possible, in_its_unit
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS
-from wirelessagent.language.moods import named_in
+from wirelessagent.language.moods import may_be_lifted, named_in
 from wirelessagent.language.request import Key, acts_between, changed, with_the_assumed
 from wirelessagent.language.sentence import BUILT_IN
 
@@ -82,13 +82,14 @@ def _respectively(possible: Possible) -> Iterator[Change]:
 def _of_shares(possible: Possible) -> Iterator[Change]:
     """By shares and multiples of what holds, or of what was said last; "double the rates" is about no power."""
     noun = speaks_of(possible.line.plain) if possible.line.figures else ()
-    others = () if len(noun) != 1 else RATES if "power" in noun else POWERS
-    if _BLOCKS not in possible.last_kinds.union(name for _, name in named_in(possible.line.plain)):
-        others = (*others, _BLOCKS)  # which nobody triples by the way
-    kinds = [kind for kind in dict.fromkeys((*possible.held, "min_rate_bps")) if kind not in others]
+    able = LIMITS if len(noun) != 1 else POWERS if "power" in noun else RATES
+    named = {name for _, name in named_in(possible.line.plain)}
+    if _BLOCKS not in possible.last_kinds | named:
+        able = [kind for kind in able if kind != _BLOCKS]  # which nobody triples by the way
     most_w = possible.figures.get(("max_power_w", EVERYBODY), math.inf)
-    of_the_cell = most_w > possible.context.max_power_w  # what it may radiate at all is less than the limit
-    kinds = [kind for kind in kinds if kind != "max_power_w" or not of_the_cell]
+    of_the_cell = most_w > possible.context.max_power_w and not may_be_lifted("max_power_w", named)
+    kinds = [kind for kind in dict.fromkeys((*possible.held, "min_rate_bps")) if kind in able]
+    kinds = [kind for kind in kinds if kind != "max_power_w" or not of_the_cell]  # it may radiate less than its limit
     for figure in possible.line.figures:
         becomes = figure in possible.line.becoming
         groups = possible.groups_for(RATES[0], figure)
@@ -98,7 +99,7 @@ def _of_shares(possible: Possible) -> Iterator[Change]:
             for kind in kinds:
                 for group in possible.groups_for(kind, figure):
                     yield group.change([Scale(kind=kind, factor=factor, whom=group.whom)], form, kind, figure)
-            if of_the_cell and "max_power_w" not in others:
+            if "max_power_w" in able and "max_power_w" not in kinds:
                 limit = Limit(kind="max_power_w", value=possible.radiated_w * factor)
                 yield Change((limit,), form, "max_power_w", "cell", figure)
             for last, group in itertools.product(possible.last, groups):  # "half of that for 7"
