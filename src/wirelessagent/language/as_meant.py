@@ -200,9 +200,7 @@ def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
         small = (wrong.value or 0) < MOST_USERS
         if its is other and small and (right.value or 0) >= MOST_USERS:  # "for 2, no, 700 for 2"
             continue
-        if (
-            other and not its and small and NUMBERED.search(plain, 0, wrong.start)
-        ):  # "for user 2, no, 3 Mbit/s"
+        if other and not its and small and NUMBERED.search(plain, 0, wrong.start):  # "for user 2, no, 3 Mbit/s"
             continue
         doubled = any(map(str.isalpha, said["pause"] + said["more"]))
         parted = said["pause"].strip() and said["more"].strip()
