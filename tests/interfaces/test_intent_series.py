@@ -113,6 +113,16 @@ ODD, EVEN = ("1", "3", "5", "7"), ("2", "4", "6", "8")
          {"min_rate_bps": dict.fromkeys("123", 1e6)}),
         ("100 kbit/s at least for users 1 to 3, 200 for users 4 to 6, least power",
          {"min_rate_bps": {**dict.fromkeys("123", 1e5), **dict.fromkeys("456", 2e5)}}),
+        ("cap 1, 3 and 5 at 2 Mbps and users 2 and 4 at 3.5 Mbps",
+         {"max_rate_bps": {"1": 2e6, "3": 2e6, "5": 2e6, "2": 3.5e6, "4": 3.5e6}}),
+        ("El usuario 8 entre 200 y 900 kbit/s", {"min_rate_bps": {"8": 2e5}, "max_rate_bps": {"8": 9e5}}),
+        ("serve 1, 2, 3 and 8 only; user 8 gets at least 5 Mbit/s, the other three at least 1.5 Mbit/s",
+         {"users": ("1", "2", "3", "8"), "min_rate_bps": {"all": 1.5e6, "8": 5e6}}),
+        ("6 Mbit/s in total guaranteed to users 1, 2 and 3, split evenly among them, user 4 at least 512 kbit/s",
+         {"min_rate_bps": {"1": 2e6, "2": 2e6, "3": 2e6, "4": 5.12e5}}),
+        ("1、2、3号加起来保底9Mbps，三人平分", {"min_rate_bps": {"1": 3e6, "2": 3e6, "3": 3e6}}),
+        ("user 1 is a camera: never above 8 Mbit/s", {"max_rate_bps": {"1": 8e6}}),
+        ("每个子载波不超过四分之一瓦", {"subcarrier_max_power_w": 0.25}),
     ],
 )  # fmt: skip
 def test_each_user_has_the_figure_that_is_said_of_them(text: str, values: dict[str, Any]) -> None:

@@ -76,9 +76,7 @@ _DIGIT = "一二两三四五六七八九十"
 _NUMBER = rf"(?:(?<![A-Za-z0-9.,])[0-9]+(?:[.,][0-9]+)?|\b{WORD_NUMBER}\b|(?<![{_DIGIT}])[{_DIGIT}]{{1,3}}+)"
 _BREAK = r"\s*+(?:[,;\uff0c；、啊哎哦唉]|[-–—…]++|\.{2,3}+)\s*+"
 _CARRIER_BEHIND = deferred(rf"(?i)\s*{any_word('figures', 'grouped', 'carriers')}\b")
-_CORRECTS, _MEANS, _PREFERS, _WAITS = (
-    either("figures", "one", name) for name in ("corrects", "means", "prefers", "waits")
-)
+_CORRECTS, _MEANS, _WAITS = (either("figures", "one", name) for name in ("corrects", "means", "waits"))
 _JOINT = rf"(?:{JOINT_WORDS}|\b{any_word('figures', 'users', 'to')}\b|[~/&+、到至和与]|(?<=[0-9])[-–](?=[0-9]))"
 _FILLED = either("figures", "one", "fillers")
 _TOKEN = rf"(?>{WORD})"
@@ -135,14 +133,8 @@ def taking_back(plain: str) -> Iterator[Span]:
     for match in _TAKES_BACK.finditer(plain):
         said, filled = match["said"].casefold(), any(map(str.isalpha, match["pause"]))  # "euh non"
         more = match["more"].strip(" ,;\uff0c；、-–—….")
-        if re.fullmatch(_PREFERS, said) and not plain[match.start() : match.start("said")].strip():
-            continue  # "el mejor caudal"
         if more.casefold().endswith(_DENIES) or (re.fullmatch(_WAITS, said) and not more):
             continue  # "sorry, no min power", "max rate, wait, least power matters, too"
-        loose = said.split()[0] not in _DENIES and not said.startswith("不")
-        broken = match["more"].strip() or _BREAK_BEHIND.match(plain, match.end())
-        if loose and not broken:
-            continue  # "scrap that least power setting"
         if filled or more or (said not in _DENIES and not re.fullmatch(_FILLED, said)):
             yield match.span()
 

@@ -221,7 +221,13 @@ class Allotments:
         return True
 
     def _others_have_a_figure(self, mention: Mention) -> bool:
-        """Whether the others, named behind somebody, have a figure in their clause: "除了用户4和5，其他人至少700k"."""
+        """Whether the others, named behind somebody, have a figure in their clause: "除了用户4和5，其他人至少700k".
+
+        They are no others than of those who are served where one of these is named again: "only 1, 2 and 3; 3 gets
+        2 Mbit/s, the other two 1 Mbit/s".
+        """
+        if any({*each.users} < {*mention.users} for each in self._found if each.users):
+            return False
         others = (each for each in self._found if each.role == "others" and each.start >= mention.end)
         return any(self._has_figures(*self._clause_of(each)) for each in others)
 
@@ -395,6 +401,7 @@ def _said_of(name: str) -> Beside:
     )
 
 
+_EVENLY = Phrases(either("figures", "bounds", "evenly"))
 _OF_ANOTHER_KIND, _OF_SEVERAL, _OF_ANOTHER_SHARE = map(_said_of, ("of_another_kind", "of_several", "of_another_share"))
 
 
@@ -472,6 +479,8 @@ class _Reader:
             return "change"
         reading, chances = self._reading, self._judged.figure(index)
         role = self._judged.role(index)
+        if role in ("total", *_RATES) and self._take_evenly(index, figure, role):
+            return ""
         following = [other for other in self._judged.figures[index + 1 : index + 2] if other.kind == figure.kind]
         limits = sum(chances.get(name, 0.0) for name in _LIMITS)
         if role in _ASKED:
@@ -538,10 +547,26 @@ class _Reader:
             if not target.sure or (denied and figure.comparator is None):  # "neither 3 nor 4 gets 1 Mbit/s"
                 return "whose_rate"
             for name in ("min_rate_bps", "max_rate_bps") if role == "both" else (role,):
-                earlier = self._allotments.give(name, target, figure)
-                if earlier is not None:
-                    self._reading.doubt("conflict", one=earlier, other=figure.text)
+                self._give(name, target, figure)
         return ""
+
+    def _give(self, name: str, target: Target, figure: Quantity) -> None:
+        earlier = self._allotments.give(name, target, figure)
+        if earlier is not None:
+            self._reading.doubt("conflict", one=earlier, other=figure.text)
+
+    def _take_evenly(self, index: int, figure: Quantity, role: str) -> bool:
+        """Take a rate that several users share evenly as so much for each: "6 Mbit/s in total, split evenly …"."""
+        figures, plain = self._judged.figures, self._reading.plain
+        end = figures[index + 1].start if index + 1 < len(figures) else len(plain)
+        shared = _EVENLY.search(plain, figures[index - 1].end if index else 0, end)
+        target = self._allotments.target_of(figure.start)
+        if shared is None or not target.sure or len(target.users) < 2:
+            return False
+        self._reading.masked.append(shared.span())
+        each = replace(figure, value=figure.value / len(target.users))
+        self._give("max_rate_bps" if role == "max_rate_bps" else "min_rate_bps", target, each)
+        return True
 
     def _with(self, said: Beside, figure: Quantity) -> str:
         """A figure with such words ahead or behind, at most its users between: "1 Mbit/s on average"; "" for none."""

@@ -13,13 +13,12 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from wirelessagent.language.as_meant import taking_back
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.order_model import shipped_order_model
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.request import users_in
 from wirelessagent.language.sentence import labels_of, own_words, read_once
-from wirelessagent.language.text import Span, overlaps
+from wirelessagent.language.text import Span
 from wirelessagent.language.vocabulary import languages_of
 from wirelessagent.language.word_tables import table
 
@@ -78,9 +77,8 @@ def doubted(text: str, context: Context | None, intent: Intent) -> Span | None:
     sentence = read_once(text, own_words(), context)
     if len(sentence.frame.tokens) < _FEWEST_WORDS:
         return None
-    turns = (each for each in taking_back(sentence.plain) if sentence.plain[: each[0]].strip())  # not of a line before
-    turn = next((each for each in turns if not overlaps(each, sentence.reading.masked)), None)
-    if turn is not None:  # nobody knows what it takes back
+    turn = next(sentence.turns_unread(), None)
+    if turn is not None:
         return turn
     if not sentence.chances.is_order:
         return shipped_order_model().against(sentence.frame) or (0, 0)

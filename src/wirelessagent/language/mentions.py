@@ -85,7 +85,7 @@ _OTHERS = Phrases(
 )
 _EVERYBODY = Phrases(
     rf"{either('figures', 'users', 'everybody')}|"
-    rf"\b(?:(?:per|a|/)\s?(?:{_EACH}|capita)|{any_word('figures', 'users', 'by')} {_EACH})\b"
+    rf"\b(?:(?:per|(?<!is )(?<!as )(?<!was )a|/)\s?(?:{_EACH}|capita)|{any_word('figures', 'users', 'by')} {_EACH})\b"
 )
 _PRONOUN = Phrases(either("figures", "users", "pronouns"))
 _FEW = rf"(?:[0-9]{{1,2}}|{WORD_NUMBER}|beiden)"

@@ -281,7 +281,10 @@ def _users_of(
 ) -> list[Number]:
     """The numbers that are users, of those that plausibly are and of those that surely are though limits may be."""
     others = [n for n in first.loose if n not in {*plausible, *else_read}]
-    able = [*plausible, *(n for n in others if _is_surely_a_user(first, n, chances))]
+    likely = [n for n in plausible if chances[n]["user"] > _SURE_OF_A_USER]
+    pairs = ((n, other) for n, other in itertools.pairwise(first.loose) if other in likely)
+    listed = [n for n, other in pairs if JOINT.fullmatch(first.plain, n.end, other.start)]  # "cap 1, 2 and 3"
+    able = [*plausible, *(n for n in others if n in listed or _is_surely_a_user(first, n, chances))]
     read = [*first.figures, *first.loose, *first.mentions]
     alone = ones(first.plain, [*taken, *((each.start, each.end) for each in read)]) if able else ()
     return _users(first.plain, able, [number for number in alone if number.value == 1], chances)

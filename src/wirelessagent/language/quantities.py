@@ -122,10 +122,11 @@ def measures(plain: str) -> tuple[Measure, ...]:
 
 
 def _read(plain: str, number: Number) -> Measure:
-    unit = unit_at(plain, number.end)
+    unit, share = unit_at(plain, number.end), _share(plain, number)
+    if unit is not None and share is not None:  # 四分之一瓦
+        return Measure(number=share.number, unit=unit, start=share.start, end=unit.end)
     if unit is not None:
         return _with_half(plain, number, unit)
-    share = _share(plain, number)
     if share is not None:
         return share
     unit, end, factor = None, number.end, Decimal(1)
@@ -206,6 +207,8 @@ def _odds(plain: str) -> Iterator[Measure]:
         if part is None and word is not None:
             count = Decimal(_ONCE.get(word[0].lower(), 1))
             part = Number(value=count, start=word.start(), end=word.end(), form="words")
+        if part is not None and NUMBERED.search(plain, 0, part.start):  # "usuario 8 entre 200 y 900 kbit/s"
+            continue
         happens = ahead["event"] or (word is not None and word["once"])
         if part is not None and (whole.value >= _FEWEST if happens else whole.value in _ROUND):
             yield from _in_all(plain, part.value, whole.value, (part.start, whole.end))

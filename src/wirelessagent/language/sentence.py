@@ -13,6 +13,7 @@ from wirelessagent.language.constraints import read_constraints
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.moods import classes_in
+from wirelessagent.language.numerals import numbers
 from wirelessagent.language.order_model import Frame, frame_of, shipped_order_model
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.sentence_model import START, Chances, Word, shipped_sentences
@@ -148,6 +149,14 @@ class Sentence:
             if beside > 1 and any(start <= place < end for place, _ in marked):
                 rest = self.text[start:].strip(" ,;:.，；：。、")
                 yield (start, end), Sentence(rest, self._own, names=self._names, max_power_w=self._max_power_w)
+
+    def turns_unread(self) -> Iterator[Span]:
+        """Where words take back a figure or a user for another one, and nobody knows which."""
+        places = [*(start for start, *_ in self._marked), *(number.start for number in numbers(self.plain))]
+        for turn in taking_back(self.plain):
+            between = any(place < turn[0] for place in places) and any(place >= turn[1] for place in places)
+            if between and not overlaps(turn, self.reading.masked):
+                yield turn
 
     def without_aims_taken_back(self) -> Sentence:
         """An order without the aims in whose place it names others: "least power, no, wait, max total rate".
