@@ -122,6 +122,8 @@ ODD, EVEN = ("1", "3", "5", "7"), ("2", "4", "6", "8")
          {"min_rate_bps": {"1": 2e6, "2": 2e6, "3": 2e6, "4": 5.12e5}}),
         ("1、2、3号加起来保底9Mbps，三人平分", {"min_rate_bps": {"1": 3e6, "2": 3e6, "3": 3e6}}),
         ("user 1 is a camera: never above 8 Mbit/s", {"max_rate_bps": {"1": 8e6}}),
+        ("l'utilisateur deux jamais plus de un méga huit", {"max_rate_bps": {"2": 1.8e6}}),
+        ("usuario uno un mega dos megas el usuario tres", {"min_rate_bps": {"1": 1e6, "3": 2e6}}),
         ("每个子载波不超过四分之一瓦", {"subcarrier_max_power_w": 0.25}),
     ],
 )  # fmt: skip

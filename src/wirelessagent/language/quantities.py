@@ -28,6 +28,7 @@ from wirelessagent.language.number_words import cardinals, listed
 from wirelessagent.language.numerals import NUMBERED, Number, and_part, chinese_value, numbers
 from wirelessagent.language.text import AND, USER_NOUN, Phrases, Span, has_chinese, normalise, overlaps
 from wirelessagent.language.units import Unit, unit_at, unit_of_another_time
+from wirelessagent.language.vocabulary import language_of
 from wirelessagent.language.word_tables import any_word, deferred, either, words_of
 
 _SUFFIX = deferred(r"\s?(?P<suffix>[kKMG])(?![A-Za-z0-9]|/(?!\s?(?:users?|ue|person|head)\b))|m(?![A-Za-z0-9/])")
@@ -154,7 +155,7 @@ def _is_apiece(plain: str, start: int, end: int) -> bool:
 
 
 def _with_half(plain: str, number: Number, unit: Unit) -> Measure:
-    """A figure with what is said behind its unit: 两兆半, 一兆五, "dos megas y medio"."""
+    """A figure with what is said behind its unit: 两兆半, 一兆五, "dos megas y medio", "un méga huit"."""
     end, value = unit.end, number.value
     if value is not None and unit.level_dbm is None and value == int(value):
         half, digit = _TRAILING_HALF.match(plain, end), _TRAILING_DIGIT.match(plain, end)
@@ -165,7 +166,21 @@ def _with_half(plain: str, number: Number, unit: Unit) -> Measure:
             value, end = value + part[0], part[1]
         elif digit is not None and number.form == "chinese":
             value, end = value + Decimal(chinese_value(digit["digit"]) or 0) / 10, digit.end()
+        elif number.form != "digits":
+            tenths = next((each for each in numbers(plain) if plain[end : each.start] == " "), None)
+            if tenths is not None and tenths.value in range(1, 10) and _is_tenths(plain, tenths):
+                value, end = value + tenths.value / 10, tenths.end
     return Measure(number=dataclasses.replace(number, value=value), unit=unit, start=number.start, end=end)
+
+
+def _is_tenths(plain: str, number: Number) -> bool:
+    """Whether a number behind a unit says its tenths, as French and Spanish do, and nothing of its own."""
+    goes_on = (
+        unit_at(plain, number.end)
+        or _COUNTED.match(plain, number.end)
+        or any(plain[number.end : each.start].isspace() for each in numbers(plain))
+    )
+    return not goes_on and number.form == "foreign" and language_of(plain) in ("es", "fr")
 
 
 def _share(plain: str, number: Number) -> Measure | None:
