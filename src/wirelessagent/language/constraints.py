@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from wirelessagent.language.as_meant import turns
+from wirelessagent.language.as_meant import taking_back, turns
 from wirelessagent.language.comparators import WITH
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
 from wirelessagent.language.judged import Judged
@@ -113,8 +113,18 @@ class Allotments:
         start, end = self._judged.view.telling(mention, role)
         self.spans.append((start, end))
         if role not in _SILENT:
+            self._take_back_the_last(mention, role)
             self._lists[role] |= dict.fromkeys(meant.users, self._text[start:end])
         return role
+
+    def _take_back_the_last(self, mention: Mention, role: str) -> None:
+        """Take those off a list in whose place the next is named: "leave out 7, no, sorry, leave out 6"."""
+        before = [each for each, its in self._roles.items() if its == role and each.end <= mention.start]
+        for start, end in taking_back(self._plain) if before else ():
+            if before[-1].end <= start and end <= mention.start:
+                self._reading.masked.append((start, end))
+                for user in before[-1].users:
+                    self._lists[role].pop(user, None)
 
     def _exempt(self) -> None:
         """Take from whoever is excepted what others have: all that they go without, else the one limit of everybody.

@@ -13,11 +13,11 @@ from collections.abc import Mapping, Sequence
 from wirelessagent.language.figure_roles import answers, likely, shipped_roles
 from wirelessagent.language.mentions import EXCEPTED, GIVEN_TO, JOINT_WORDS, WHO, Mention
 from wirelessagent.language.number_roles import ITEMS, Numbers, everybody_named, jointly, moved, runs, series, shares
-from wirelessagent.language.numerals import Number
+from wirelessagent.language.numerals import Number, factors
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.request import numbered
-from wirelessagent.language.stated import CARRIERS, Beside, shares_power
-from wirelessagent.language.text import Span
+from wirelessagent.language.stated import CARRIERS, PER_CARRIER, Beside, shares_power
+from wirelessagent.language.text import Span, clause_start
 from wirelessagent.language.word_tables import any_word, deferred, either
 
 # The share of those who have a rate or a weight, among all users named and among those of each role.
@@ -104,7 +104,12 @@ class Judged:
         carriers = CARRIERS.search(self._look.plain) is not None
         for place, figure in enumerate(self._look.figures):
             chances = answers(figure.kind, self.view.figure(place))
-            means[figure.start] = _as_bounded(self._look.plain, figure, chances, carriers=carriers)
+            before = self._look.figures[place - 1].phrase_end if place else 0
+            means[figure.start] = _as_bounded(self._look.plain, figure, chances, before=before, carriers=carriers)
+        times = {factor.start for factor in factors(self._look.plain)}
+        for base, figure in itertools.pairwise(each for each in self._look.figures if each.kind == "rate"):
+            if figure.start in times and figure.comparator is None:  # "cap 6 at 1 Mbit/s, user 1 at the double"
+                means[figure.start] = means[base.start]
         for starts in self.lists:
             each = [means[start] for start in starts if start in means]
             if each:
@@ -156,19 +161,31 @@ class Judged:
         return shares({mention: chances.get(mention, 0.0) for mention in (*candidates, None)})
 
 
-def _as_bounded(plain: str, figure: Quantity, chances: Mapping[str, float], *, carriers: bool) -> Mapping[str, float]:
+def _as_bounded(
+    plain: str, figure: Quantity, chances: Mapping[str, float], *, before: int, carriers: bool
+) -> Mapping[str, float]:
     """How likely a figure has each role, a limit being the one that its bound says: what is "at least" is no ceiling.
 
-    No power is one of a subcarrier where nothing speaks of ``carriers``; what is "of the power budget" is no promise.
+    ``before`` is where the figure ahead ends. No power is one of a subcarrier where nothing speaks of ``carriers``, and
+    what is "of the power budget" is no promise.
     """
     if figure.kind == "power" and figure.comparator == "at_least":
         return moved(chances, _CEILINGS, "floor")
     if figure.kind == "ratio" and shares_power(plain, figure):
         return moved(chances, ("outage", "reliability"), "share")
+    if figure.kind == "power" and _is_of_a_carrier(plain, figure, before):
+        return moved(chances, tuple(chances), "subcarrier_max_power_w")
     if figure.kind == "power" and not carriers:
         return moved(chances, ("subcarrier_max_power_w",), "max_power_w")
     bound = _BOUNDED.get(figure.comparator or "") if figure.kind == "rate" else None
     return chances if bound is None else moved(chances, ("min_rate_bps", "max_rate_bps", "both"), bound)
+
+
+def _is_of_a_carrier(plain: str, figure: Quantity, before: int) -> bool:
+    """Whether a power is said to be one of each subcarrier, behind it or ahead, where no figure ends ``before``."""
+    start, end = max(before, clause_start(plain, figure.phrase_start)), figure.phrase_end
+    taken = PER_CARRIER.behind.match(plain, before) if before else None  # "0.1 W per subcarrier and 10 W in total"
+    return PER_CARRIER.is_at(plain, figure.phrase_start, end, max(start, taken.end() if taken else 0))
 
 
 def _each_once(chances: Sequence[Mapping[str, float]]) -> list[Mapping[str, float]]:

@@ -19,7 +19,17 @@ from decimal import Decimal
 from typing import TypeVar
 
 from wirelessagent.language.figure_roles import SCALED, Look, View, answers
-from wirelessagent.language.mentions import BY_PLACE, GIVEN_TO, JOINT, JOINT_WORDS, LISTED, Mention, mentions, merged
+from wirelessagent.language.mentions import (
+    BY_PLACE,
+    GIVEN_TO,
+    JOINT,
+    JOINT_WORDS,
+    LISTED,
+    WORD_NUMBER,
+    Mention,
+    mentions,
+    merged,
+)
 from wirelessagent.language.moods import named_in
 from wirelessagent.language.number_words import listed
 from wirelessagent.language.numerals import Number
@@ -48,9 +58,9 @@ _DECLARING = frozenset(words_of("figures", "one", "declares"))
 _DENIED = deferred(f"(?i){either('moods', 'negation', 'clause')}")
 _FAR = 200  # no two rates of one sentence are farther apart: another unit is meant
 _ALONE, _HALF, _BEHIND = (either("figures", "one", name) for name in ("alone", "half", "behind_alone"))
-_ONE = Phrases(  # "the others only one", against "one user"
+_ONE = Phrases(  # "the others only one", "one two and four", against "one user"
     rf"(?<![\w'-])(?:{_ALONE}|(?P<part>(?:(?:an?|une?|ein(?:e[nr]?)?)\s+)?(?:{_HALF})))"
-    rf"(?!\w)(?=\s*(?:$|[,.;:!?)]|{_BEHIND}))"
+    rf"(?!\w)(?=\s*(?:$|[,.;:!?)]|{_BEHIND})|\s+{WORD_NUMBER}\b)"
 )
 
 

@@ -168,7 +168,7 @@ def _with_half(plain: str, number: Number, unit: Unit) -> Measure:
             value, end = value + Decimal(chinese_value(digit["digit"]) or 0) / 10, digit.end()
         elif number.form != "digits":
             tenths = next((each for each in numbers(plain) if plain[end : each.start] == " "), None)
-            if tenths is not None and tenths.value in range(1, 10) and _is_tenths(plain, tenths):
+            if tenths is not None and tenths.value is not None and _is_tenths(plain, tenths):
                 value, end = value + tenths.value / 10, tenths.end
     return Measure(number=dataclasses.replace(number, value=value), unit=unit, start=number.start, end=end)
 
@@ -180,7 +180,8 @@ def _is_tenths(plain: str, number: Number) -> bool:
         or _COUNTED.match(plain, number.end)
         or any(plain[number.end : each.start].isspace() for each in numbers(plain))
     )
-    return not goes_on and number.form == "foreign" and language_of(plain) in ("es", "fr")
+    digit = number.form == "foreign" and number.value in range(1, 10)
+    return digit and not goes_on and language_of(plain) in ("es", "fr")
 
 
 def _share(plain: str, number: Number) -> Measure | None:
