@@ -89,20 +89,16 @@ _TAKES_BACK = deferred(
     rf"(?i)(?P<pause>{_PAUSE}*+)(?P<said>{_MEANS}|{_CORRECTS})(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}|是))*+)"
 )
 _AND_AHEAD = deferred(rf"(?i)\b(?:{AND})\s*$")
-_BREAK_BEHIND = deferred(_BREAK)
 _INSTEAD = deferred(
     rf"(?i)(?:\s*{_TOKEN}){{0,3}}?\s*[,\uff0c]?\s*(?P<instead>(?:{either('figures', 'one', 'instead_of')})\s*)"
 )
 _BOUND_BEHIND = "|".join(either("figures", "bounds", name) for name in ("at_least_behind", "at_most_behind"))
-_WEIGHT_AHEAD = deferred(rf"(?i)(?:{either('figures', 'users', 'weighs')})\s*$")
 _ENDED = deferred(r"\s*(?:$|[,.;:!?)\uff0c\uff1b。、](?![0-9]))")
 _GOES_ON = deferred(rf"(?i){_ENDED.pattern}|\s+(?:{AND})\b(?!\s*{_NUMBER})")
-_SURELY_A_RATE, _DENIES = 20, ("no", "non", "不", "不是")
-"""From where on a whole number without a unit is nobody's, and words that deny what follows as often as they take back
-what stands before, when they stand alone."""
+_DENIES = ("no", "non", "不", "不是")
+"""Words that deny what follows as often as they take back what stands before, when they stand alone."""
 _GOES_ELSEWHERE = deferred(rf"(?i)\s*(?:给|对|(?!(?:{AND})\b|{_BOUND_BEHIND})[A-Za-zÀ-ÿ])")
 _ANOTHER_USER = deferred(rf"(?i){ANY_NOUN}")
-_GIVEN_AHEAD = deferred(rf"(?i)(?:\s*{GIVEN_TO})+\s*$")
 _LIST_AHEAD = deferred(rf"(?i){_NUMBER}\s*号?\s*(?:,\s*)?(?:{_JOINT}|,)\s*(?:{GIVEN_TO}\s*)?(?:{ANY_NOUN}\s*)?$")
 _LIST_BEHIND = deferred(rf"(?i)\s*号?\s*{_JOINT}\s*(?:{GIVEN_TO}\s*)?(?:{ANY_NOUN}\s*)?{_NUMBER}")
 
