@@ -302,8 +302,6 @@ FIGURES_OF_SOME: list[tuple[str, dict[str, Any]]] = [
      {"max_rate_bps": dict.fromkeys("1357", 2e6) | dict.fromkeys("2468", 1e6)}),
     ("ungerade Nutzer höchstens 2 Mbit/s, gerade höchstens 1",
      {"max_rate_bps": dict.fromkeys("1357", 2e6) | dict.fromkeys("2468", 1e6)}),
-    ("users 1 to 8 at least 300k, user 4 100 kbit/s more than that", {"min_rate_bps": {"all": 3e5, "4": 4e5}}),
-    ("每人至少300k,用户4比这多100k", {"min_rate_bps": {"all": 3e5, "4": 4e5}}),
     ("750 kbit/s para el usuario 3 y el doble para el usuario 5", {"min_rate_bps": {"3": 7.5e5, "5": 1.5e6}}),
     ("bits por julio al máximo con 600 kbit/s para el usuario 7", {"min_rate_bps": {"7": 6e5}}),
     ("Nutzer 7 maximal mit 600 kbit/s", {"max_rate_bps": {"7": 6e5}}),

@@ -20,7 +20,7 @@ from wirelessagent.language.mentions import ARTICLES, EXCEPTED, NOBODY, WITHOUT,
 from wirelessagent.language.moods import lifted_in, may_be_lifted
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.stated import Beside, Doubt, Reading, doubt_parts, take_blocks, take_counts
+from wirelessagent.language.stated import CARRIERS, Beside, Doubt, Reading, doubt_parts, take_blocks, take_counts
 from wirelessagent.language.text import AND, Phrases, Span, clause_end, clause_start, overlaps
 from wirelessagent.language.word_tables import deferred, either
 
@@ -534,7 +534,9 @@ class _Reader:
         elif role == "share":
             self._reading.take_share(figure, self._max_power_w)
         elif figure.kind == "ratio":
-            if self._with(_OF_ANOTHER_SHARE, figure):
+            clause = self._reading.plain[clause_start(self._reading.plain, figure.start) : figure.start]
+            of_carriers = figure.comparator is not None and CARRIERS.search(clause)
+            if of_carriers or self._with(_OF_ANOTHER_SHARE, figure):
                 return "share"
             outage = figure.value if role == "outage" else round(1 - figure.value, 15)
             if outage > _MOST_OUTAGE and self._judged.figure(index)[role] < _SURE_OF_A_PROMISE:
