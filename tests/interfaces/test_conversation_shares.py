@@ -91,6 +91,19 @@ def test_a_multiple_is_one_of_the_limit_that_is_named(said: str) -> None:
     assert held == {"max_power_w": pytest.approx(3.0), "resource_block_group_size": 12.0}
 
 
+@pytest.mark.parametrize(
+    "said",
+    [
+        "the floor stays, halve the power",
+        "die Mindestrate bleibt, halbiere die Leistung",
+        "keep the floor, half the power",
+    ],
+)
+def test_a_limit_that_is_kept_is_not_what_is_halved(said: str) -> None:
+    held, _ = talk("highest total rate, at most 10 W, at least 100 kbit/s each", said)
+    assert held == {"max_power_w": pytest.approx(5.0), "min_rate_bps": 1e5}
+
+
 def test_a_share_of_a_limit_that_is_named_is_one_of_it_though_the_cell_may_radiate_less() -> None:
     held, _ = talk("highest total rate, at most 24 W", "cut the power limit by a quarter")
     assert held == {"max_power_w": pytest.approx(18.0)}

@@ -216,3 +216,33 @@ def test_of_two_figures_of_one_thing_the_one_behind_what_takes_back_holds(text: 
 )
 def test_what_takes_back_nobody_knows_what_is_asked_about(text: str) -> None:
     assert recognise(text).kind == "clarify"
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("max rate, 10 W, user 1 weight 3, hold on, user 2 at most 1 Mbit/s",
+         {"max_power_w": 10.0, "weights": {"1": 3.0}, "max_rate_bps": {"2": 1e6}}),
+        ("energy efficiency, 10 W, uh, 5 W circuit power", {"max_power_w": 10.0, "circuit_power_w": 5.0}),
+        ("max rate with at most 10 W, uh, 1 W per carrier", {"max_power_w": 10.0, "subcarrier_max_power_w": 1.0}),
+        ("leave out user 7, I mean it, leave out user 6", {"leave_out": ("7", "6")}),
+        ("leave out user 7, sorry for him, leave out user 6 too", {"leave_out": ("7", "6")}),
+        ("min power, at least 1 Mbit/s and, uh, 2 Mbit/s for users 3 and 4", {"min_rate_bps": {"3": 1e6, "4": 2e6}}),
+        ("users 3, 4 and, uh, 5 at least 1 Mbit/s", {"min_rate_bps": {"3": 1e6, "4": 1e6, "5": 1e6}}),
+        ("1 Mbit/s pour 3, 2 Mbit/s pour 4, enfin 10 W", {"min_rate_bps": {"3": 1e6, "4": 2e6}, "max_power_w": 10.0}),
+        ("nicht Nutzer 3 sondern Nutzer 2 bekommt 1 Mbit/s", {"min_rate_bps": {"2": 1e6}}),
+        ("users 1 and 2 at least 2 Mbit/s, the rest shared evenly, 10 W",
+         {"min_rate_bps": {"1": 2e6, "2": 2e6}, "max_power_w": 10.0}),
+        ("10 W split evenly, users 1 and 2 get 1 Mbit/s", {"min_rate_bps": {"1": 1e6, "2": 1e6}, "max_power_w": 10.0}),
+        ("maximise the rate per subcarrier with 10 W", {"max_power_w": 10.0}),
+        ("not 10 W per subcarrier but 10 W in total, max rate", {"max_power_w": 10.0}),
+        ("user 3 at least 1 Mbit/s, cap user 4 at the double",
+         {"min_rate_bps": {"3": 1e6}, "max_rate_bps": {"4": 2e6}}),
+        ("débit max, un méga deux exclu, dix watts", {"min_rate_bps": 1e6, "leave_out": ("2",), "max_power_w": 10.0}),
+        ("用户五五百k，用户六六百k", {"min_rate_bps": {"5": 5e5, "6": 6e5}}),
+    ],
+)  # fmt: skip
+def test_what_takes_nothing_back_and_is_shared_by_nobody_leaves_the_rest_as_it_is(
+    text: str, values: dict[str, Any]
+) -> None:
+    assert read(text) == values

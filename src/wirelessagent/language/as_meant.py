@@ -66,7 +66,7 @@ def _fits(name: str, plain: str, start: int, end: int) -> bool:
 @functools.cache
 def _misheard(name: str, language: str) -> re.Pattern[str]:
     words: Mapping[str, str] = table("figures", language)["heard"][name]
-    said = rf"(?P<said>{'|'.join(sorted(map(re.escape, words), key=len, reverse=True))})(?![A-Za-zÀ-ÿ0-9'])"
+    said = rf"(?P<said>{'|'.join(sorted(map(re.escape, words), key=len, reverse=True))})(?![A-Za-zÀ-ÿ0-9'-])"
     if name == "behind_nouns":
         return deferred(rf"(?i)(?<![A-Za-zÀ-ÿ]){ANY_NOUN}\s*+{said}")
     return deferred(rf"(?i)(?<![A-Za-zÀ-ÿ'])(?:{said})")
@@ -88,6 +88,8 @@ _RETURN = deferred(  # what stands between a figure and the one that takes its p
 _TAKES_BACK = deferred(
     rf"(?i)(?P<pause>{_PAUSE}*+)(?P<said>{_MEANS}|{_CORRECTS})(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}|是))*+)"
 )
+_HESITATES = deferred(rf"(?i)(?<![A-Za-zÀ-ÿ'])(?:{_FILLED})(?![A-Za-zÀ-ÿ'])\s*,?(?=\s*(?P<item>{_NUMBER}))")
+_ITEM = deferred(rf"(?i)\s*{_NUMBER}")
 _AND_AHEAD = deferred(rf"(?i)\b(?:{AND})\s*$")
 _INSTEAD = deferred(
     rf"(?i)(?:\s*{_TOKEN}){{0,3}}?\s*[,\uff0c]?\s*(?P<instead>(?:{either('figures', 'one', 'instead_of')})\s*)"
@@ -99,6 +101,7 @@ _DENIES = ("no", "non", "不", "不是")
 """Words that deny what follows as often as they take back what stands before, when they stand alone."""
 _GOES_ELSEWHERE = deferred(rf"(?i)\s*(?:给|对|(?!(?:{AND})\b|{_BOUND_BEHIND})[A-Za-zÀ-ÿ])")
 _ANOTHER_USER = deferred(rf"(?i){ANY_NOUN}")
+_GIVEN_AHEAD = deferred(rf"(?i)(?:\s*{GIVEN_TO})+\s*$")
 _LIST_AHEAD = deferred(rf"(?i){_NUMBER}\s*号?\s*(?:,\s*)?(?:{_JOINT}|,)\s*(?:{GIVEN_TO}\s*)?(?:{ANY_NOUN}\s*)?$")
 _LIST_BEHIND = deferred(rf"(?i)\s*号?\s*{_JOINT}\s*(?:{GIVEN_TO}\s*)?(?:{ANY_NOUN}\s*)?{_NUMBER}")
 
@@ -117,6 +120,10 @@ def without_corrected(text: str) -> str:
         if not overlaps((start, end), done):  # "14 watts uh no 13 watts": one is taken back, and not the other, too
             text = written_over(text, start, end, instead)
             done.append((start, end))
+    plain = normalise(text)
+    for match in _HESITATES.finditer(plain):  # "users 3 and, uh, 4", "10 W, uh, 5 W for the circuits"
+        if unit_at(plain, match.end("item")) or _AND_AHEAD.search(plain[: match.start()].rstrip(" ,")):
+            text = written_over(text, *match.span(), "")
     return text
 
 
@@ -131,7 +138,9 @@ def taking_back(plain: str) -> Iterator[Span]:
         more = match["more"].strip(" ,;\uff0c；、-–—….")
         if more.casefold().endswith(_DENIES) or (re.fullmatch(_WAITS, said) and not more):
             continue  # "sorry, no min power", "max rate, wait, least power matters, too"
-        if filled or more or (said not in _DENIES and not re.fullmatch(_FILLED, said)):
+        parted = match["pause"].strip() and match["more"].strip()  # "…, no, …"
+        sure = filled or more or parted or said not in _DENIES
+        if sure and (more or not re.fullmatch(_FILLED, said)):
             yield match.span()
 
 
@@ -142,9 +151,12 @@ def turns(plain: str) -> list[Span]:
     """
     found = list[Span]()
     for match in _TAKES_BACK.finditer(plain):
-        filled = any(map(str.isalpha, match["pause"]))
-        lone = match["said"].casefold() in _DENIES and not (match["more"] or filled)
-        if not lone or not (match["pause"].strip() or _AND_AHEAD.search(plain, 0, match.start("said"))):
+        said, filled = match["said"].casefold(), any(map(str.isalpha, match["pause"]))
+        if re.fullmatch(_FILLED, said) and not match["more"].strip(" ,"):
+            continue  # "10 W, uh, 5 W for the circuits"
+        denies = said in _DENIES and not (match["more"] or filled)
+        right_before = _ITEM.match(plain, match.end()) is not None and not match["pause"].strip()
+        if (right_before or not denies) and not _AND_AHEAD.search(plain, 0, match.start("said")):
             found.append(match.span())
     return found
 
@@ -188,12 +200,16 @@ def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
         small = (wrong.value or 0) < MOST_USERS
         if its is other and small and (right.value or 0) >= MOST_USERS:  # "for 2, no, 700 for 2"
             continue
-        if other and not its and small and NUMBERED.search(plain, 0, wrong.start):  # "for user 2, no, 3 Mbit/s"
+        user = small and NUMBERED.search(plain, 0, wrong.start) is not None
+        if other and not its and user:  # "for user 2, no, 3 Mbit/s"
             continue
         doubled = any(map(str.isalpha, said["pause"] + said["more"]))
         parted = said["pause"].strip() and said["more"].strip()
         if not (doubled or parted) and said["said"].casefold() in _DENIES:
             continue  # "no service to 6, no service to 7", "con 10 W, no 20 W"
+        given = other and not its and _GIVEN_AHEAD.search(plain, 0, wrong.start)
+        if given and not doubled and re.fullmatch(_WAITS, said["said"].casefold()):
+            continue  # "2 Mbit/s pour 4, enfin 10 W"
         ahead, behind = plain[: wrong.start].casefold().rstrip(), plain[other.end if other else right.end :].casefold()
         head, tail = said["head"].casefold().strip(), said["tail"].casefold().strip()
         if its is not None and other is None:
@@ -203,5 +219,5 @@ def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
         elif its and other:  # else two figures of one thing are found to be so by whoever reads them
             if its.kind == other.kind and ahead.endswith(head) and not (tail or _GOES_ELSEWHERE.match(behind)):
                 yield wrong.start, right.start, ""
-        elif (ahead.endswith(head) or _ANOTHER_USER.fullmatch(head)) and behind.lstrip().startswith(tail):
+        elif (ahead.endswith(head) or (user and _ANOTHER_USER.fullmatch(head))) and behind.lstrip().startswith(tail):
             yield wrong.start, right.start, ""  # "without 3, uh, without 4", "2, no, 3 Mbit/s"

@@ -13,10 +13,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from wirelessagent.language.as_meant import taking_back, turns
-from wirelessagent.language.comparators import WITH
+from wirelessagent.language.comparators import WITH, speaks_of
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
 from wirelessagent.language.judged import Judged
-from wirelessagent.language.mentions import ARTICLES, EXCEPTED, NOBODY, WITHOUT, Mention, Role
+from wirelessagent.language.mentions import ANY_NOUN, ARTICLES, EXCEPTED, GIVEN_TO, NOBODY, WITHOUT, Mention, Role
 from wirelessagent.language.moods import lifted_in, may_be_lifted
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
@@ -27,6 +27,9 @@ from wirelessagent.language.word_tables import deferred, either
 _SURE_OF_A_ROLE, _SURE_OF_SILENCE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.9, 0.5, 0.45
 _SAID = 0.4
 _RATES = ("min_rate_bps", "max_rate_bps")
+_ADDS = Phrases(either("figures", "users", "adds"))
+_NOT_AHEAD = deferred(rf"(?i)(?:{either('figures', 'one', 'not_who')})\s*(?:{GIVEN_TO}\s*)*$")
+_BUT_BEHIND = deferred(rf"(?i)\s*号?(?:{either('figures', 'one', 'but_who')})\s*(?:{GIVEN_TO}\s*)*{ANY_NOUN}")
 _LEAVING = Phrases(either("figures", "users", "leaving"))
 _ALIKE = either("figures", "users", "alike")
 _GIVEN_ALIKE = Beside(
@@ -112,19 +115,22 @@ class Allotments:
         self._used |= {mention, meant.mention or mention}
         start, end = self._judged.view.telling(mention, role)
         self.spans.append((start, end))
+        if role == "leave_out":
+            self._take_back_the_last(mention)
         if role not in _SILENT:
-            self._take_back_the_last(mention, role)
             self._lists[role] |= dict.fromkeys(meant.users, self._text[start:end])
         return role
 
-    def _take_back_the_last(self, mention: Mention, role: str) -> None:
-        """Take those off a list in whose place the next is named: "leave out 7, no, sorry, leave out 6"."""
-        before = [each for each, its in self._roles.items() if its == role and each.end <= mention.start]
+    def _take_back_the_last(self, mention: Mention) -> None:
+        """Serve those after all in whose place the next are left out: "leave out 7, no, sorry, leave out 6"."""
+        before = [each for each, its in self._roles.items() if its == "leave_out" and each.end <= mention.start]
         for start, end in taking_back(self._plain) if before else ():
-            if before[-1].end <= start and end <= mention.start:
+            beside = self._plain[end : mention.start], self._plain[mention.end : clause_end(self._plain, mention.end)]
+            instead = len(before[-1].users) == len(mention.users) and not any(map(_ADDS.search, beside))
+            if instead and before[-1].end <= start and end <= mention.start:
                 self._reading.masked.append((start, end))
                 for user in before[-1].users:
-                    self._lists[role].pop(user, None)
+                    self._lists["leave_out"].pop(user, None)
 
     def _exempt(self) -> None:
         """Take from whoever is excepted what others have: all that they go without, else the one limit of everybody.
@@ -190,6 +196,10 @@ class Allotments:
 
     def _likeliest(self, mention: Mention) -> str:
         """What somebody is there for; without certainty it is unclear."""
+        of_all = any(each.role == "everybody" and each.end <= mention.start for each in self._found)
+        denied = not of_all and _NOT_AHEAD.search(self._plain, 0, mention.start)
+        if denied and _BUT_BEHIND.match(self._plain, mention.end):  # "not user 3 but user 2"
+            return "stale"
         chances, said = self._judged.user(mention), self._judged.said_of(mention)
         clause = self._plain[slice(*self._clause_of(mention))]
         if self._is_out_of_all(mention) and (lifted_in(clause) or _UNLIMITED.search(clause)):
@@ -411,7 +421,7 @@ def _said_of(name: str) -> Beside:
     )
 
 
-_EVENLY = Phrases(either("figures", "bounds", "evenly"))
+_EVENLY, _WEIGHS = Phrases(either("figures", "bounds", "evenly")), Phrases(either("figures", "users", "weights"))
 _OF_ANOTHER_KIND, _OF_SEVERAL, _OF_ANOTHER_SHARE = map(_said_of, ("of_another_kind", "of_several", "of_another_share"))
 
 
@@ -568,12 +578,23 @@ class _Reader:
             self._reading.doubt("conflict", one=earlier, other=figure.text)
 
     def _take_evenly(self, index: int, figure: Quantity, role: str) -> bool:
-        """Take a rate that several users share evenly as so much for each: "6 Mbit/s in total, split evenly …"."""
+        """Take a rate that several users share evenly as so much for each: "6 Mbit/s in total, split evenly …".
+
+        What is shared is no power, nothing of the others, and no rate that each of them has.
+        """
         figures, plain = self._judged.figures, self._reading.plain
         end = figures[index + 1].start if index + 1 < len(figures) else len(plain)
         shared = _EVENLY.search(plain, figures[index - 1].end if index else 0, end)
         target = self._allotments.target_of(figure.start)
         if shared is None or not target.sure or len(target.users) < 2:
+            return False
+        start = min(clause_start(plain, shared.start()), clause_start(plain, figure.start))
+        span = start, max(clause_end(plain, shared.end()), clause_end(plain, figure.end))
+        among = {each.role for each in self._judged.mentions if span[0] <= each.start < span[1]}
+        said = plain[slice(*span)]
+        of_something_else = "power" in speaks_of(said) or bool(CARRIERS.search(said) or _WEIGHS.search(said))
+        of_something_else |= any(span[0] <= each.start < span[1] for each in figures if each is not figure)
+        if of_something_else or among & {"others", "everybody"}:
             return False
         self._reading.masked.append(shared.span())
         each = replace(figure, value=figure.value / len(target.users))

@@ -10,6 +10,7 @@ import itertools
 import math
 from collections.abc import Mapping, Sequence
 
+from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.figure_roles import answers, likely, shipped_roles
 from wirelessagent.language.mentions import EXCEPTED, GIVEN_TO, JOINT_WORDS, WHO, Mention
 from wirelessagent.language.number_roles import ITEMS, Numbers, everybody_named, jointly, moved, runs, series, shares
@@ -17,7 +18,7 @@ from wirelessagent.language.numerals import Number, factors
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.request import numbered
 from wirelessagent.language.stated import CARRIERS, PER_CARRIER, Beside, shares_power
-from wirelessagent.language.text import Span, clause_start
+from wirelessagent.language.text import Phrases, Span, clause_start
 from wirelessagent.language.word_tables import any_word, deferred, either
 
 # The share of those who have a rate or a weight, among all users named and among those of each role.
@@ -38,6 +39,7 @@ _UNBOUND = deferred(rf"(?i)\s*(?:$|[^\w\s]|{GIVEN_TO}|{JOINT_WORDS}|(?:{_AS})\s*
 _GOES_ON = deferred(rf"(?i)\s*[,)\uff0c]\s*(?:{either('figures', 'users', 'takes')})")
 _CEILINGS = ("max_power_w", "subcarrier_max_power_w")
 _BOUNDED = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
+_DENIED = Phrases(either("moods", "negation", "clause"))
 _ONCE, _MOST_POWERS, _HARDLY = ("max_power_w", "circuit_power_w", "subcarrier_max_power_w"), 4, 0.01
 
 
@@ -106,14 +108,14 @@ class Judged:
             chances = answers(figure.kind, self.view.figure(place))
             before = self._look.figures[place - 1].phrase_end if place else 0
             means[figure.start] = _as_bounded(self._look.plain, figure, chances, before=before, carriers=carriers)
-        times = {factor.start for factor in factors(self._look.plain)}
-        for base, figure in itertools.pairwise(each for each in self._look.figures if each.kind == "rate"):
-            if figure.start in times and figure.comparator is None:  # "cap 6 at 1 Mbit/s, user 1 at the double"
-                means[figure.start] = means[base.start]
         for starts in self.lists:
             each = [means[start] for start in starts if start in means]
             if each:
                 means |= dict.fromkeys(starts, jointly(each))
+        times = {factor.start for factor in factors(self._look.plain)}
+        for first, *behind in self._series:  # "bride 6 à 1 Mbit/s, 1 au double"
+            same = (each.start for each in behind if each.start in times and each.comparator is None)
+            means |= dict.fromkeys(same, means[first.start])
         for first, *behind in self._series:  # "cap 1 at 1.5, 4 at 2 and 6 at 2.5 Mbit/s": one bound
             alone, last = [first, *itertools.takewhile(self._has_no_bound, behind)], [first, *behind][-1]
             if first.comparator is None and len(alone) > len(behind):
@@ -182,10 +184,15 @@ def _as_bounded(
 
 
 def _is_of_a_carrier(plain: str, figure: Quantity, before: int) -> bool:
-    """Whether a power is said to be one of each subcarrier, behind it or ahead, where no figure ends ``before``."""
+    """Whether a power is said to be one of each subcarrier, behind it or ahead, where no figure ends ``before``.
+
+    A rate of each subcarrier is none, nor what is denied: "not 10 W per subcarrier".
+    """
     start, end = max(before, clause_start(plain, figure.phrase_start)), figure.phrase_end
     taken = PER_CARRIER.behind.match(plain, before) if before else None  # "0.1 W per subcarrier and 10 W in total"
-    return PER_CARRIER.is_at(plain, figure.phrase_start, end, max(start, taken.end() if taken else 0))
+    clause = plain[max(start, taken.end() if taken else 0) : figure.phrase_start]
+    ahead = PER_CARRIER.ahead.search(clause) is not None and "rate" not in speaks_of(clause)
+    return (ahead or PER_CARRIER.behind.match(plain, end) is not None) and _DENIED.search(clause) is None
 
 
 def _each_once(chances: Sequence[Mapping[str, float]]) -> list[Mapping[str, float]]:

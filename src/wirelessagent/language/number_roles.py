@@ -235,13 +235,13 @@ class Numbers:
             first = dataclasses.replace(first, mentions=called)
             view = first.view()
         self.chances = chances = _chances(first, view)
-        rates = _rates_of_lists(first, chances)
-        plausible = _no_limits(first, rates)
-        users = _users_of(first, plausible, rates, taken, chances)
-        borrowing = _borrowing(first, chances, users) | dict.fromkeys(rates, "rate")
+        weighing, rates = _weighing_lists(first, chances), _rates_of_lists(first, chances)
+        plausible = _no_limits(first, [*weighing, *rates])
+        users = _users_of(first, plausible, [*weighing, *rates], taken, chances)
+        borrowing = _borrowing(first, chances, [*users, *weighing]) | dict.fromkeys(rates, "rate")
         self.look = look = second_look(first, users, borrowing)
         self.view = view if look is first else look.view()
-        self.weights = [n for n in look.loose if _weighs(plain, n, chances[n])]
+        self.weights = [n for n in look.loose if n in weighing or _weighs(plain, n, chances[n])]
         self.groups = [n for n in look.loose if n.value is not None and chances[n]["group"] > _SURE_OF_A_GROUP]
         starts = {figure.start for figure in look.figures}
         perhaps = [n for n in first.ones if chances[n]["rate"] + chances[n]["power"] > _PERHAPS]
@@ -413,6 +413,17 @@ def _weighs(plain: str, number: Number, chances: Mapping[str, float]) -> bool:
     """Whether a number says how much somebody counts."""
     able = number.value is not None and 0 <= number.value < _MOST_WEIGHT and SCALED.match(plain, number.end) is None
     return able and chances["weight"] > _SURE_OF_A_WEIGHT
+
+
+def _weighing_lists(look: Look, chances: _Roles) -> list[Number]:
+    """The numbers of lists as long as a list of users, of which one surely says how much somebody counts."""
+    plain, lengths = look.plain, {len(mention.users) for mention in look.mentions}
+    able = [n for n in look.loose if n.value is not None and 0 <= n.value < _MOST_WEIGHT and n.form != "times"]
+    lists = [each for each in runs(plain, able, ITEMS) if len(each) > 1 and len(each) in lengths]
+    return [
+        number for each in lists for number in each
+        if _WEIGHTS.search(plain, 0, each[0].start) or any(_weighs(plain, n, chances[n]) for n in each)
+    ]  # fmt: skip
 
 
 def _rates_of_lists(look: Look, chances: _Roles) -> list[Number]:

@@ -53,6 +53,7 @@ _TRAILING_DIGIT = deferred(
 )
 _FRACTION = deferred(r"(?P<below>[0-9]+|[一二三四五六七八九十百千万两]+)分之$")
 _TENTHS = deferred(r"成(?:(?P<more>[一二三四五六七八九半]{1,3})|(?![员立为本交绩效长了就品]|功(?!率)|不变))")
+_NOTHING_COUNTED = deferred(r"(?i)\s*(?:$|[,.;:!?)])|\s+(?:par|pou?r|para|por|cada|chaque|chacune?|de|à|a|au|al)\b")
 _COUNTED = deferred(rf"(?i)\s+(?:of\s+(?:the|our|my)\s+)?(?:{USER_NOUN}|people|persons|personas|personnes|sensor\w*)\b")
 
 
@@ -166,7 +167,7 @@ def _with_half(plain: str, number: Number, unit: Unit) -> Measure:
             value, end = value + part[0], part[1]
         elif digit is not None and number.form == "chinese":
             value, end = value + Decimal(chinese_value(digit["digit"]) or 0) / 10, digit.end()
-        elif number.form != "digits":
+        elif number.form != "digits" and value < 10:
             tenths = next((each for each in numbers(plain) if plain[end : each.start] == " "), None)
             if tenths is not None and tenths.value is not None and _is_tenths(plain, tenths):
                 value, end = value + tenths.value / 10, tenths.end
@@ -175,13 +176,8 @@ def _with_half(plain: str, number: Number, unit: Unit) -> Measure:
 
 def _is_tenths(plain: str, number: Number) -> bool:
     """Whether a number behind a unit says its tenths, as French and Spanish do, and nothing of its own."""
-    goes_on = (
-        unit_at(plain, number.end)
-        or _COUNTED.match(plain, number.end)
-        or any(plain[number.end : each.start].isspace() for each in numbers(plain))
-    )
     digit = number.form == "foreign" and number.value in range(1, 10)
-    return digit and not goes_on and language_of(plain) in ("es", "fr")
+    return digit and _NOTHING_COUNTED.match(plain, number.end) is not None and language_of(plain) in ("es", "fr")
 
 
 def _share(plain: str, number: Number) -> Measure | None:

@@ -19,6 +19,7 @@ from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS
 from wirelessagent.language.moods import may_be_lifted, named_in
 from wirelessagent.language.request import Key, acts_between, changed, with_the_assumed
 from wirelessagent.language.sentence import BUILT_IN
+from wirelessagent.language.text import clause_end
 
 _BLOCKS = "resource_block_group_size"
 _DIVISORS = (2, 3, 4, 5, 10)
@@ -81,9 +82,14 @@ def _respectively(possible: Possible) -> Iterator[Change]:
 
 def _of_shares(possible: Possible) -> Iterator[Change]:
     """By shares and multiples of what holds, or of what was said last; "double the rates" is about no power."""
-    noun = speaks_of(possible.line.plain) if possible.line.figures else ()
-    able = LIMITS if len(noun) != 1 else POWERS if "power" in noun else RATES
-    named = {name for _, name in named_in(possible.line.plain)}
+    plain = possible.line.plain
+    noun = speaks_of(plain) if possible.line.figures else ()
+    named = {name for _, name in named_in(plain)}
+    nouns = POWERS if "power" in noun else RATES
+    able = LIMITS if len(noun) != 1 else [kind for kind in LIMITS if kind in nouns or may_be_lifted(kind, named)]
+    of_the_noun = not noun or any(may_be_lifted(kind, named) for kind in nouns)
+    if named and of_the_noun and clause_end(plain, 0) == len(plain.rstrip(".!。")):
+        able = [kind for kind in able if may_be_lifted(kind, named)]  # "triple the power limit"
     if _BLOCKS not in possible.last_kinds | named:
         able = [kind for kind in able if kind != _BLOCKS]  # which nobody triples by the way
     most_w = possible.figures.get(("max_power_w", EVERYBODY), math.inf)

@@ -23,11 +23,11 @@ from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.conversation.anchors import Anchor, Anchored
 from wirelessagent.language.conversation.answers import speaks_of_applying
 from wirelessagent.language.conversation.line import NAME, Line, is_all
-from wirelessagent.language.conversation.possible import LIMITS, Change, Effect, Possible
+from wirelessagent.language.conversation.possible import Change, Effect, Possible
 from wirelessagent.language.conversation.signs import Read, Signs, block_places, place_of
 from wirelessagent.language.guard import asking_whether, guarded, stranger
 from wirelessagent.language.intent import Intent
-from wirelessagent.language.moods import classes_in, is_denied, lifted_in, may_be_lifted, named_in
+from wirelessagent.language.moods import classes_in, is_denied, lifted_in, may_be_lifted
 from wirelessagent.language.offline import NAME as OFFLINE
 from wirelessagent.language.request import changed, constraints_of
 from wirelessagent.language.sentence import BUILT_IN
@@ -145,11 +145,12 @@ def weigh(signs: Signs, model: TalkModel | None = None) -> Weighed:
     """What a line means likeliest, by the model of this release or another one."""
     model, changes = model or shipped_talk_model(), signs.changes()
     scores, together = model.scores(signs, changes), signs.together
-    able = {place for place, change in enumerate(changes) if _is_of_what_is_named(change, signs.anchored.plain)}
+    lifted = lifted_in(signs.anchored.plain)
+    lifts = [{act.kind for act in change.acts if isinstance(act, Drop)} for change in changes]
     found = [
         (each, [changes[place] for place in each.places])
         for each in meanings(changes, scores)
-        if able.issuperset(each.places)
+        if not lifted or all(may_be_lifted(kind, lifted) for place in each.places for kind in lifts[place])
     ]
     total = np.array([
         sum(scores[place] for place in each.places) + model.together[together.signs(parts, each.effect)].sum()
@@ -173,17 +174,6 @@ def weigh(signs: Signs, model: TalkModel | None = None) -> Weighed:
         whole = change.form in ("read", "guessed")
         used.update(signs.anchored.anchors if whole else (change.figure, change.model, *change.users))
     return Weighed(acts=acts, said=said, shares=shares, used=frozenset(each for each in used if each is not None))
-
-
-def _is_of_what_is_named(change: Change, plain: str) -> bool:
-    """Whether a change is of a limit that the line names, where it names any and no unit says which is meant."""
-    drops = {act.kind for act in change.acts if isinstance(act, Drop)}
-    if drops:
-        lifted = lifted_in(plain)
-        return not lifted or all(may_be_lifted(kind, lifted) for kind in drops)
-    names = {name for _, name in named_in(plain)}
-    bare = change.figure is None or change.figure.kind in ("number", "factor")
-    return not (names and bare and change.kind in LIMITS) or may_be_lifted(change.kind, names)
 
 
 @functools.cache
