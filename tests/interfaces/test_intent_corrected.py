@@ -212,6 +212,8 @@ def test_of_two_figures_of_one_thing_the_one_behind_what_takes_back_holds(text: 
         "max bits per joule, at most 10 W, hold on, 8 W is the circuit power",
         "veinte vatios no espera dieciocho y el maximo throughput que salga",
         "max rate, cap user one at 2 megabits no wait cap user seven at 2 megabits",
+        "max rate, no more than thirty watts, uh thirty two",
+        "吞吐最大，功率一百毫瓦 不 九十毫瓦",
     ],
 )
 def test_what_takes_back_nobody_knows_what_is_asked_about(text: str) -> None:

@@ -144,6 +144,14 @@ def taking_back(plain: str) -> Iterator[Span]:
             yield match.span()
 
 
+def hesitating(plain: str) -> Iterator[Span]:
+    """Where a pause stands between a figure and a number that may take its place: "thirty watts, uh, thirty two"."""
+    measured = {unit.end for number in numbers(plain) if (unit := unit_at(plain, number.end)) is not None}
+    for match in _HESITATES.finditer(plain):
+        if len(plain[: match.start()].rstrip(" ,.\uff0c…")) in measured:
+            yield match.span()
+
+
 def turns(plain: str) -> list[Span]:
     """Where words stand that may take back a figure ahead of them, a "no" among them: "1 W no 2 W", "1 W, no, 2 W".
 
@@ -168,7 +176,8 @@ def _not_meant(plain: str) -> Iterator[tuple[int, int, str]]:
         said = _INSTEAD.fullmatch(plain, its.end, other.start) if its is not None else None
         end = other.end if unit is None else unit.end
         alike = its is not None and (unit is None or unit.kind == its.kind)
-        if said is not None and alike and _GOES_ON.match(plain, end):
+        parted = said is None or "," in said[0] or "\uff0c" in said[0] or said["instead"].strip() not in _DENIES
+        if said is not None and alike and parted and _GOES_ON.match(plain, end):  # but "100 mW no 90 mW" corrects
             yield said.start("instead"), end, ""
 
 

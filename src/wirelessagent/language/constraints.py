@@ -516,7 +516,8 @@ class _Reader:
             if 1 - limits < _SURE:
                 return _UNSURE[figure.kind]
             alike = [other for other in self._judged.figures if other.kind == figure.kind]
-            if role == "refused" and len(alike) == 1:
+            before = max((other.end for other in alike if other.end <= figure.start), default=0)
+            if role == "refused" and (len(alike) == 1 or (before and self._reading.takes_back(before, figure.start))):
                 return "refused"
             if role == "stale":  # the words by which the next figure takes its place wish and deny nothing
                 reading.masked += [(figure.end, other.start) for other in following if other.start - figure.end < _NEAR]

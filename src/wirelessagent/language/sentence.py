@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 
 from wirelessagent import plugins
 from wirelessagent.language import goals
-from wirelessagent.language.as_meant import as_meant, taking_back
+from wirelessagent.language.as_meant import as_meant, hesitating, taking_back
 from wirelessagent.language.constraints import read_constraints
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.mentions import mentions
@@ -153,7 +153,7 @@ class Sentence:
     def turns_unread(self) -> Iterator[Span]:
         """Where words take back a figure or a user for another one, and nobody knows which."""
         places = [*(start for start, *_ in self._marked), *(number.start for number in numbers(self.plain))]
-        for turn in taking_back(self.plain):
+        for turn in (*taking_back(self.plain), *hesitating(self.plain)):
             between = any(place < turn[0] for place in places) and any(place >= turn[1] for place in places)
             if between and not overlaps(turn, self.reading.masked):
                 yield turn
