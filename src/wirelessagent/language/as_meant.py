@@ -90,7 +90,7 @@ _TAKES_BACK = deferred(
 )
 _HESITATES = deferred(rf"(?i)(?<![A-Za-zÀ-ÿ'])(?:{_FILLED})(?![A-Za-zÀ-ÿ'])\s*,?(?=\s*(?P<item>{_NUMBER}))")
 _ITEM = deferred(rf"(?i)\s*{_NUMBER}")
-_AND_AHEAD = deferred(rf"(?i)\b(?:{AND})\s*$")
+_AND_AHEAD = deferred(rf"(?i)(?:\b(?:{AND})|[和与跟及])\s*$")
 _INSTEAD = deferred(
     rf"(?i)(?:\s*{_TOKEN}){{0,3}}?\s*[,\uff0c]?\s*(?P<instead>(?:{either('figures', 'one', 'instead_of')})\s*)"
 )
@@ -122,7 +122,7 @@ def without_corrected(text: str) -> str:
             done.append((start, end))
     plain = normalise(text)
     for match in _HESITATES.finditer(plain):  # "users 3 and, uh, 4", "10 W, uh, 5 W for the circuits"
-        if unit_at(plain, match.end("item")) or _AND_AHEAD.search(plain[: match.start()].rstrip(" ,")):
+        if unit_at(plain, match.end("item")) or _AND_AHEAD.search(plain[: match.start()].rstrip(" ,\uff0c")):
             text = written_over(text, *match.span(), "")
     return text
 
@@ -145,10 +145,11 @@ def taking_back(plain: str) -> Iterator[Span]:
 
 
 def hesitating(plain: str) -> Iterator[Span]:
-    """Where a pause stands between a figure and a number that may take its place: "thirty watts, uh, thirty two"."""
-    measured = {unit.end for number in numbers(plain) if (unit := unit_at(plain, number.end)) is not None}
+    """Where a pause stands between two numbers, the second of which may take the place of the first: "30 W, uh, 32"."""
+    units = ((number, unit_at(plain, number.end)) for number in numbers(plain))
+    ends = {unit.end if unit is not None else number.end for number, unit in units}
     for match in _HESITATES.finditer(plain):
-        if len(plain[: match.start()].rstrip(" ,.\uff0c…")) in measured:
+        if len(plain[: match.start()].rstrip(" ,.\uff0c…")) in ends:
             yield match.span()
 
 
@@ -225,6 +226,8 @@ def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
             if not head and _ENDED.match(plain, right.end):
                 unit = plain[wrong.end : said.start("back")].rstrip()
                 yield wrong.start, right.end, plain[right.start : right.end] + unit
+        elif its and other and its.kind == other.kind and tail and not head and _GOES_ON.match(behind):
+            yield wrong.start, other.end, f"{plain[right.start : other.end]}{said['tail']}"  # "5 W more, no, wait, 6 W"
         elif its and other:  # else two figures of one thing are found to be so by whoever reads them
             if its.kind == other.kind and ahead.endswith(head) and not (tail or _GOES_ELSEWHERE.match(behind)):
                 yield wrong.start, right.start, ""

@@ -17,7 +17,7 @@ from wirelessagent.language.number_roles import ITEMS, Numbers, everybody_named,
 from wirelessagent.language.numerals import Number, factors
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.request import numbered
-from wirelessagent.language.stated import CARRIERS, PER_CARRIER, Beside, shares_power
+from wirelessagent.language.stated import CARRIERS, EACH_CARRIER, POWER_NOUNS, Beside, shares_power
 from wirelessagent.language.text import Phrases, Span, clause_start
 from wirelessagent.language.word_tables import any_word, deferred, either
 
@@ -40,6 +40,10 @@ _GOES_ON = deferred(rf"(?i)\s*[,)\uff0c]\s*(?:{either('figures', 'users', 'takes
 _CEILINGS = ("max_power_w", "subcarrier_max_power_w")
 _BOUNDED = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
 _DENIED = Phrases(either("moods", "negation", "clause"))
+_CARRIER_AHEAD = deferred(
+    rf"(?i){EACH_CARRIER}\w*\s*(?:(?:{either('figures', 'users', 'takes')}|{POWER_NOUNS}|功率|上限|[:=])\s*)*$"
+)
+_CARRIER_BEHIND = deferred(rf"(?i)\s*(?:(?:on|in|for|auf|bei|en|sur|dans|pour|para)\s+)?{EACH_CARRIER}")
 _ONCE, _MOST_POWERS, _HARDLY = ("max_power_w", "circuit_power_w", "subcarrier_max_power_w"), 4, 0.01
 
 
@@ -188,11 +192,12 @@ def _is_of_a_carrier(plain: str, figure: Quantity, before: int) -> bool:
 
     A rate of each subcarrier is none, nor what is denied: "not 10 W per subcarrier".
     """
-    start, end = max(before, clause_start(plain, figure.phrase_start)), figure.phrase_end
-    taken = PER_CARRIER.behind.match(plain, before) if before else None  # "0.1 W per subcarrier and 10 W in total"
-    clause = plain[max(start, taken.end() if taken else 0) : figure.phrase_start]
-    ahead = PER_CARRIER.ahead.search(clause) is not None and "rate" not in speaks_of(clause)
-    return (ahead or PER_CARRIER.behind.match(plain, end) is not None) and _DENIED.search(clause) is None
+    clause = plain[max(before, clause_start(plain, figure.phrase_start)) : figure.phrase_start]
+    ahead = _CARRIER_AHEAD.search(clause)
+    of_each = ahead is not None and "rate" not in speaks_of(clause[: ahead.start()])
+    taken = _CARRIER_BEHIND.match(plain, before) if before else None  # "0.1 W per subcarrier and 10 W in total"
+    behind = _CARRIER_BEHIND.match(plain, figure.phrase_end)
+    return bool((of_each and not taken) or behind) and _DENIED.search(clause) is None
 
 
 def _each_once(chances: Sequence[Mapping[str, float]]) -> list[Mapping[str, float]]:

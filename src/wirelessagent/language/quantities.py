@@ -167,7 +167,7 @@ def _with_half(plain: str, number: Number, unit: Unit) -> Measure:
             value, end = value + part[0], part[1]
         elif digit is not None and number.form == "chinese":
             value, end = value + Decimal(chinese_value(digit["digit"]) or 0) / 10, digit.end()
-        elif number.form != "digits" and value < 10:
+        elif number.form != "digits" and value < 10 and unit.kind == "rate":
             tenths = next((each for each in numbers(plain) if plain[end : each.start] == " "), None)
             if tenths is not None and tenths.value is not None and _is_tenths(plain, tenths):
                 value, end = value + tenths.value / 10, tenths.end
@@ -176,7 +176,10 @@ def _with_half(plain: str, number: Number, unit: Unit) -> Measure:
 
 def _is_tenths(plain: str, number: Number) -> bool:
     """Whether a number behind a unit says its tenths, as French and Spanish do, and nothing of its own."""
-    digit = number.form == "foreign" and number.value in range(1, 10)
+    found = numbers(plain)
+    ends = [unit.end for each in found if (unit := unit_at(plain, each.end)) is not None]
+    rows = sum(plain[end : each.start] == " " for end in ends for each in found)  # "un méga trois, deux mégas quatre"
+    digit = number.form == "foreign" and number.value in range(1, 10) and rows == 1
     return digit and _NOTHING_COUNTED.match(plain, number.end) is not None and language_of(plain) in ("es", "fr")
 
 

@@ -153,7 +153,8 @@ class Sentence:
     def turns_unread(self) -> Iterator[Span]:
         """Where words take back a figure or a user for another one, and nobody knows which."""
         places = [*(start for start, *_ in self._marked), *(number.start for number in numbers(self.plain))]
-        for turn in (*taking_back(self.plain), *hesitating(self.plain)):
+        yield from hesitating(self.plain)
+        for turn in taking_back(self.plain):
             between = any(place < turn[0] for place in places) and any(place >= turn[1] for place in places)
             if between and not overlaps(turn, self.reading.masked):
                 yield turn

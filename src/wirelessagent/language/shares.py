@@ -14,15 +14,20 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from wirelessagent.language.moods import named_in
 from wirelessagent.language.numerals import factors
 from wirelessagent.language.quantities import measures
-from wirelessagent.language.text import Phrases, clause_end, normalise, overlaps, written_over
+from wirelessagent.language.text import clause_start, normalise, overlaps, written_over
 from wirelessagent.language.word_tables import any_word, deferred, either, words_of
 
 _OF, _BETWEEN = (rf"(?<!\w){any_word('figures', 'shares_of', name)}(?!\w)" for name in ("of", "between"))
 _BELOW, _OF_IT = (any_word("figures", "shares_of", name) for name in ("below", "of_it"))
 _INSIDE, _IT_AHEAD = (f"(?:{either('figures', 'shares_of', name)})" for name in ("inside", "of_it_ahead"))
-_USES = Phrases(either("figures", "shares_of", "uses"))
+_USING = either("figures", "shares_of", "uses")
+_USES = deferred(rf"(?i)(?<![A-Za-zÀ-ÿ])(?:{_USING})(?![A-Za-zÀ-ÿ])")
+_USES_BEHIND = deferred(
+    rf"(?i)\s*(?:(?P<uses>{_USING})|{either('figures', 'bounds', 'at_most_behind')})?\s*(?:$|[,.;:!?\uff0c\uff1b。])"
+)
 _WHOSE = rf"(?:\s*{_BETWEEN})*\s*"
 _LESS_THAN = deferred(rf"(?i)\s*(?:{_BELOW})(?:\s*{_BETWEEN})+\s*")
 _JOINED = deferred(rf"(?i)\s*{_OF}{_WHOSE}")
@@ -101,9 +106,17 @@ def _of_one_ahead(plain: str, share: _Figure, base: _Figure) -> Iterator[tuple[i
         yield base.start, share.end, worth
     elif it is not None:
         yield share.start, it.end(), worth
-    elif base.kind == "power" and share.value < 1 and _USES.search(plain, base.end, clause_end(plain, share.end)):
-        yield base.start, base.end, ""  # "it can do 40 W, use a quarter at most"
+    elif base.kind == "power" and share.value < 1 and _is_used(plain, share):  # "it can do 40 W, use a quarter at most"
+        yield base.start, base.end, ""
         yield share.start, share.end, worth
+
+
+def _is_used(plain: str, share: _Figure) -> bool:
+    """Whether a clause uses a share, and says no more of it: none of the users, no promise, none of the circuits."""
+    clause = plain[clause_start(plain, share.start) : share.start]
+    other = any(name in ("outage_probability", "circuit_power_w") for _, name in named_in(clause))
+    behind = _USES_BEHIND.match(plain, share.end)
+    return behind is not None and not other and (_USES.search(clause) is not None or behind["uses"] is not None)
 
 
 def _shares(plain: str) -> Iterator[_Figure]:

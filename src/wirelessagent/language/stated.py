@@ -202,9 +202,9 @@ _SHARED = Beside(
     ),
     deferred(rf"(?i)(?:\s++|{_FULL})*+(?:{_BUDGET})\b(?:\s+(?:budget|limit))?|的?(?:发射|总)?(?:功率|预算)(?!放大)"),
 )
-_EACH_CARRIER = rf"(?:{either('figures', 'shared', 'per')})\s*子?(?:{either('figures', 'bounds', 'carriers')})"
-PER_CARRIER = Beside(
-    deferred(rf"(?i){_EACH_CARRIER}[^,;.\uff0c。0-9]{{0,16}}$"), deferred(rf"(?i)\s*(?:\w+\s+)?{_EACH_CARRIER}")
+EACH_CARRIER = rf"(?:{either('figures', 'shared', 'per')})\s*子?(?:{either('figures', 'bounds', 'carriers')})"
+_PER_CARRIER = Beside(
+    deferred(rf"(?i){EACH_CARRIER}[^,;.\uff0c。0-9]{{0,16}}$"), deferred(rf"(?i)\s*(?:\w+\s+)?{EACH_CARRIER}")
 )
 _UNUSED = deferred(rf"(?i)\s*(?:{either('figures', 'shared', 'unused')})")
 
@@ -325,7 +325,7 @@ class Reading:
         span = start, unused.end() if unused else end
         self.masked.append(span)
         self.spoken_for.append(span)
-        carriers = PER_CARRIER.is_at(self.plain, start, end, clause_start(self.plain, start))
+        carriers = _PER_CARRIER.is_at(self.plain, start, end, clause_start(self.plain, start))
         name = "subcarrier_max_power_w" if carriers else "max_power_w"
         if unused and figure.comparator == "at_most":
             self.doubt("share", text=figure.text)  # what is radiated at least
