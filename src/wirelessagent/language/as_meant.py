@@ -81,13 +81,11 @@ _JOINT = rf"(?:{JOINT_WORDS}|\b{any_word('figures', 'users', 'to')}\b|[~/&+、�
 _FILLED = either("figures", "one", "fillers")
 _TOKEN = rf"(?>{WORD})"
 _PAUSE = rf"(?:(?:{_FILLED})\s*+|{_BREAK})"
+_BACK = rf"(?P<pause>{_PAUSE}*+)(?P<said>{_MEANS}|{_CORRECTS})(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}|是))*+)"
 _RETURN = deferred(  # what stands between a figure and the one that takes its place: words of either, what takes back
-    rf"(?i)(?P<tail>(?:\s*+{_TOKEN}){{0,4}}?)\s*+(?P<back>(?P<pause>{_PAUSE}*+)(?P<said>(?P<means>{_MEANS})|{_CORRECTS})"
-    rf"(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}|是))*+)\s*+)(?P<head>(?:{_TOKEN}\s*+){{0,5}}?)"
+    rf"(?i)(?P<tail>(?:\s*+{_TOKEN}){{0,4}}?)\s*+(?P<back>{_BACK}\s*+)(?P<head>(?:{_TOKEN}\s*+){{0,5}}?)"
 )
-_TAKES_BACK = deferred(
-    rf"(?i)(?P<pause>{_PAUSE}*+)(?P<said>{_MEANS}|{_CORRECTS})(?P<more>(?:\s*+(?:{_PAUSE}|{_CORRECTS}|{_MEANS}|是))*+)"
-)
+_TAKES_BACK = deferred(rf"(?i){_BACK}")
 _HESITATES = deferred(rf"(?i)(?<![A-Za-zÀ-ÿ'])(?:{_FILLED})(?![A-Za-zÀ-ÿ'])\s*,?(?=\s*(?P<item>{_NUMBER}))")
 _ITEM = deferred(rf"(?i)\s*{_NUMBER}")
 _AND_AHEAD = deferred(rf"(?i)(?:\b(?:{AND})|[和与跟及])\s*$")
