@@ -28,6 +28,18 @@ STATED: list[tuple[str, dict[str, Any]]] = [
     ("1号和2号用户至少2兆,其他人500k", {"min_rate_bps": {"1": 2e6, "2": 2e6, "all": 5e5}}),
     ("al menos 500 kbps por usuario y 2 Mbps para el usuario 4", {"min_rate_bps": {"all": 5e5, "4": 2e6}}),
     ("Nutzer 4 braucht mindestens 2 Mbit/s", {"min_rate_bps": {"4": 2e6}}),
+    # "le un", "el uno" are user 1, and whoever an "and" joins to somebody named is somebody
+    ("un mégabit au un", {"min_rate_bps": {"1": 1e6}}), ("le un plafonné à 2 mégabits", {"max_rate_bps": {"1": 2e6}}),
+    ("du un au quatre un mégabit chacun", {"min_rate_bps": {"1": 1e6, "2": 1e6, "3": 1e6, "4": 1e6}}),
+    ("al uno y al dos medio mega", {"min_rate_bps": {"1": 5e5, "2": 5e5}}), ("sin el uno", {"leave_out": ("1",)}),
+    ("corte al uno por ciento", {"outage_probability": 0.01}),
+    # what is said of somebody, and of another one, too
+    ("le deux doit avoir un mégabit et le six aussi", {"min_rate_bps": {"2": 1e6, "6": 1e6}}),
+    ("el tres no más de cinco megas y el siete tampoco", {"max_rate_bps": {"3": 5e6, "7": 5e6}}),
+    ("user fünf ein megabit user sechs auch", {"min_rate_bps": {"5": 1e6, "6": 1e6}}),
+    ("ohne nutzer 3, nutzer 4 auch", {"leave_out": ("3", "4")}),
+    ("leave out user 3 and user 5 too", {"leave_out": ("3", "5")}),
+    ("half a watt for each subcarrier", {"subcarrier_max_power_w": 0.5}),
     # weights
     ("weight 2 for user 1 and 0.5 for user 4", {"weights": {"1": 2.0, "4": 0.5}}),
     ("user 5 counts twice, user 6 has weight 3", {"weights": {"5": 2.0, "6": 3.0}}),

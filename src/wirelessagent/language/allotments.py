@@ -96,10 +96,12 @@ class Allotments:
     def _assign(self, mention: Mention) -> str:
         """Note what somebody is there for, which is given back."""
         role, meant = self._likeliest(mention), self._target(mention)
+        if _GIVEN_ALIKE.behind.match(self._plain, mention.end):  # "le 6 non plus"
+            before = [each for each in self._found if each.role == "named" and each.end <= mention.start]
+            alone = "given" if len(mention.users) == 1 else role  # "without users 3 and 4, too"
+            role = self._roles.get(before[-1], "given") if before else alone
         if role == "given" or not meant.users:
             return role
-        if _GIVEN_ALIKE.behind.match(self._plain, mention.end):  # "le 6 non plus"
-            return "given"
         self._roles[mention] = role
         if role == "exempt":  # a clause that only says to whom nothing is promised: "user 7 has no least rate"
             start, end = self._clause_of(mention)
@@ -166,12 +168,10 @@ class Allotments:
         """The figures of whoever was named before for whom the same is said: "user 5 the same", "lo mismo al 4"."""
         named = [mention for mention in self._found if mention.role == "named"]
         for before, mention in itertools.pairwise(named):
-            start = max(before.end, clause_start(self._plain, mention.start))
-            between = [figure for figure in self._judged.figures if start <= figure.start < mention.end]
             ahead = _GIVEN_ALIKE.ahead.search(self._plain, before.end, mention.start)
             said = ahead or _GIVEN_ALIKE.behind.match(self._plain, mention.end)
             own = any(user in given for given in self._given.values() for user in mention.users)
-            if between or said is None or own or mention in self._used:
+            if said is None or own or mention in self._used:
                 continue
             rated = any(user in self._given[name] for name in RATES for user in before.users)
             for given in [self._given[name] for name in (RATES if rated else FIGURES_OF_USERS)]:

@@ -143,11 +143,19 @@ def taking_back(plain: str) -> Iterator[Span]:
 
 
 def hesitating(plain: str) -> Iterator[Span]:
-    """Where a pause stands between two numbers, the second of which may take the place of the first: "30 W, uh, 32"."""
-    units = ((number, unit_at(plain, number.end)) for number in numbers(plain))
-    ends = {unit.end if unit is not None else number.end for number, unit in units}
+    """Where a pause stands between two numbers, and the second may take the place of the first.
+
+    >>> list(hesitating("30 W, uh, 32")), list(hesitating("30 W, uh, 30"))
+    ([(6, 9)], [])
+    """
+    found, ends = list(numbers(plain)), dict[int, Number]()
+    for number in found:
+        unit = unit_at(plain, number.end)
+        ends[unit.end if unit is not None else number.end] = number
     for match in _HESITATES.finditer(plain):
-        if len(plain[: match.start()].rstrip(" ,.\uff0c…")) in ends:
+        ahead = ends.get(len(plain[: match.start()].rstrip(" ,.\uff0c…")))
+        again = any(each.start == match.start("item") and ahead and each.value == ahead.value for each in found)
+        if ahead is not None and not again:
             yield match.span()
 
 

@@ -196,7 +196,7 @@ class _Reader:
                 return "share"
             self._reading.take("outage_probability", outage, figure)
         elif figure.kind == "power":
-            if self._is_of_a_user(figure):
+            if role != "subcarrier_max_power_w" and self._is_of_a_user(figure):
                 return "power_per_user"
             if figure.value > _HUGE_POWER_W:
                 return "huge"

@@ -20,7 +20,7 @@ from wirelessagent.language.number_words import cardinals, listed, tens_and_ones
 from wirelessagent.language.numerals import TIGHT_LIST, chinese_value
 from wirelessagent.language.text import AND, Phrases, clause_start, is_chinese, overlaps
 from wirelessagent.language.units import unit_at
-from wirelessagent.language.word_tables import any_word, deferred, either
+from wirelessagent.language.word_tables import any_word, deferred, either, words_of
 
 Role: TypeAlias = Literal["named", "everybody", "others", "pronoun"]
 
@@ -53,6 +53,8 @@ _LIST = (
     rf"(?:{TIGHT_LIST}|{_DIGITS})(?:(?:{_AND}|{_TO})(?:{_NO}\s*)?{_DIGITS}{_OF_ITS_OWN})*|{_WORD_LIST})"
 )
 _OPENS = rf"\s*(?::\s*(?={_DIGITS}{_AND}{_DIGITS})|[\[({{{{]\s*(?=[0-9]))"  # "users: 1, 2", "users {{1, 2}}"
+_ONE_USER = "|".join(f"(?<= {word} )|(?<=^{word} )" for word in words_of("figures", "users", "before_one"))
+"""Articles ahead of "un" or "uno" where that can only be user 1: "le un et le six", "al uno"."""
 _BOUND = r"(?:≥|≤|>=?|<=?|=|min\.?|max\.?|at (?:least|most))"
 _NAMED = Phrases(
     rf"(?<![A-Za-z0-9]){NOUN}(?:[\s_]*|-|\s-\s)(?:ids?\s*|{_NO}\s*|(?:del?|from|von)\s+(?=[0-9]{{1,3}}{_TO})|{_OPENS})?\s*(?P<list>{_LIST})"
@@ -63,6 +65,7 @@ _NAMED = Phrases(
     rf"#\s?(?P<hash>[0-9]{{1,4}}(?:{_AND}#?\s?[0-9]{{1,4}})*)"
     rf"|(?<![A-Za-z])(?:{_NUMBER_NOUN}|no\.)\s+(?P<number>{_LIST})"
     rf"|(?<![A-Za-z])(?P<ordinal>{_ORDINAL})\s+{NOUN}(?![A-Za-z])"
+    rf"|(?:{_ONE_USER})(?P<one>uno?)(?!\w|\s+(?:por|pour|de|virgule|coma|et demi|y medio)\b|\s*%)"
 )
 _ZH_NUMBER = r"(?:[0-9]{1,4}|[一二三四五六七八九十]{1,3})"
 ZH_NOUN = r"(?:用户|終端|终端|用戶|UE|ue|客户|客戶|订户|设备|手机|节点)"

@@ -196,6 +196,7 @@ _BESIDE = deferred(  # between the figures of users one after the other, "@" for
     rf"(?i)(?=[^@]*@)(?:[\s,;:、\uff0c\uff1b\uff1a/&=→>()\[\]@-]|"
     rf"{GIVEN_TO}|{JOINT_WORDS}|{either('figures', 'users', 'given_with')})*"
 )
+_BOTH = deferred(rf"(?i)(?=.*[^\W\d_])(?:{JOINT.pattern.removeprefix('(?i)')})")  # by more than a comma
 _TO_SOMEBODY = deferred(rf"(?i)\s*(?:{GIVEN_TO}\s*)+{USER_NOUN}")
 _WITH_A_JOINT = deferred(rf"(?i)(?=\s*\S)(?:{LISTED.pattern.removeprefix('(?i)')})")
 _WEIGHTS = deferred(  # what follows are weights, whatever else they may look like
@@ -294,10 +295,12 @@ def _users_of(
     likely = [n for n in plausible if chances[n]["user"] > _SURE_OF_A_USER]
     pairs = ((n, other) for n, other in itertools.pairwise(first.loose) if other in likely)
     listed = [n for n, other in pairs if JOINT.fullmatch(first.plain, n.end, other.start)]  # "cap 1, 2 and 3"
+    named = [each for each in first.mentions if each.role == "named"]
+    listed += [n for n in others for each in named if _BOTH.fullmatch(first.plain, each.end, n.start)]
     able = [*plausible, *(n for n in others if n in listed or _is_surely_a_user(first, n, chances))]
     read = [*first.figures, *first.loose, *first.mentions]
     alone = ones(first.plain, [*taken, *((each.start, each.end) for each in read)]) if able else ()
-    return _users(first.plain, able, [number for number in alone if number.value == 1], chances)
+    return _users(first.plain, able, [number for number in alone if number.value == 1], named, chances)
 
 
 def everybody_named(look: Look) -> list[Mention]:
@@ -455,7 +458,9 @@ def _rates_of_lists(look: Look, chances: _Roles) -> list[Number]:
     return found
 
 
-def _users(plain: str, numbers: Sequence[Number], singles: Sequence[Number], chances: _Roles) -> list[Number]:
+def _users(
+    plain: str, numbers: Sequence[Number], singles: Sequence[Number], named: Sequence[Mention], chances: _Roles
+) -> list[Number]:
     """The numbers that are users: surely, or likelier than not beside one that surely is ("2, 5 and 7").
 
     One of the ``singles`` ("one") is a user in a list with others: "for the one and the three".
@@ -469,9 +474,15 @@ def _users(plain: str, numbers: Sequence[Number], singles: Sequence[Number], cha
         and COUNTED_USERS.match(plain, n.start) is None
         and FOREIGN_UNIT.match(plain, n.end) is None
     ]
-    able = sorted([*able, *singles], key=lambda number: number.start)
-    lists = [each for each in runs(plain, able, JOINT) if _WEIGHTS.search(plain, 0, each[0].start) is None]
-    lists = [each for each in lists if len({number.value for number in each}) == len(each)  # "w = [2, 1, 1]"
-             or all(n not in singles and chances[n]["user"] > _CERTAIN_OF_A_USER for n in each)]  # fmt: skip
-    sure = [each for each in lists if any(n not in singles and chances[n]["user"] > _SURE_OF_A_USER for n in each)]
-    return [n for each in sure for n in each if n in singles or chances[n]["user"] > _ONE_OF_A_LIST]
+    found = list[Number]()
+    for each in runs(plain, sorted([*able, *singles, *named], key=lambda item: item.start), JOINT):
+        own = [item for item in each if isinstance(item, Number)]
+        judged = [n for n in own if n not in singles]
+        apart = len({n.value for n in own}) == len(own)  # not "w = [2, 1, 1]"
+        certain = len(own) == len(judged) and all(chances[n]["user"] > _CERTAIN_OF_A_USER for n in own)
+        beside = any(_BOTH.fullmatch(plain, one.end, other.start) for one, other in itertools.pairwise(each)
+                     if isinstance(one, Mention) != isinstance(other, Mention))  # fmt: skip
+        sure = beside or any(chances[n]["user"] > _SURE_OF_A_USER for n in judged)
+        if sure and (apart or certain) and _WEIGHTS.search(plain, 0, each[0].start) is None:
+            found += [n for n in own if n in singles or chances[n]["user"] > _ONE_OF_A_LIST]
+    return found
