@@ -40,6 +40,28 @@ STATED: list[tuple[str, dict[str, Any]]] = [
     ("ohne nutzer 3, nutzer 4 auch", {"leave_out": ("3", "4")}),
     ("leave out user 3 and user 5 too", {"leave_out": ("3", "5")}),
     ("half a watt for each subcarrier", {"subcarrier_max_power_w": 0.5}),
+    # so many times what another user gets
+    ("user 1 gets 3 Mbit/s, user 2 half as much as user 1, user 3 half as much as user 2",
+     {"min_rate_bps": {"1": 3e6, "2": 1.5e6, "3": 7.5e5}}),
+    ("用户8的最低速率是用户1的三倍，用户1是400 kbit/s", {"min_rate_bps": {"1": 4e5, "8": 1.2e6}}),
+    ("El 4 necesita el cuádruple que el 1. El 1 necesita 450 kbit/s", {"min_rate_bps": {"1": 4.5e5, "4": 1.8e6}}),
+    ("l'utilisateur 7 doit avoir le triple de l'utilisateur 2, lequel doit avoir 520 kbit/s au moins",
+     {"min_rate_bps": {"2": 5.2e5, "7": 1.56e6}}),
+    ("cap user 1 at 2 Mbit/s and user 3 at twice that of user 1", {"max_rate_bps": {"1": 2e6, "3": 4e6}}),
+    # whoever goes without, in their own words; who is excepted has a limit of the same kind
+    ("all users: 300 kbit/s guaranteed, except user 2 who has 2 Mbit/s and user 5 who has no guarantee",
+     {"min_rate_bps": {"all": 3e5, "2": 2e6, "5": 0.0}}),
+    ("un méga minimum pour tous sauf l'utilisateur huit qui n'a droit à aucune garantie",
+     {"min_rate_bps": {"all": 1e6, "8": 0.0}}),
+    ("plafond de 2,7 Mbit/s pour tout le monde, sauf l'utilisateur 2 qui est à 900 kbit/s",
+     {"max_rate_bps": {"all": 2.7e6, "2": 9e5}}),
+    ("只服务一三五号", {"users": ("1", "3", "5")}), ("预算留两成不动", {"max_power_w": 16.0}),
+    ("ahorra potencia al máximo medio mega mínimo para todos", {"min_rate_bps": 5e5}),
+    ("un incumplimiento de cada cien", {"outage_probability": 0.01}),
+    ("a tenth of the power is off limits", {"max_power_w": 18.0}),
+    # figures said once more
+    ("at most 9 watts i repeat 9 watts", {"max_power_w": 9.0}), ("circuit 10 W (10 W transmit power)",
+     {"circuit_power_w": 10.0, "max_power_w": 10.0}),
     # weights
     ("weight 2 for user 1 and 0.5 for user 4", {"weights": {"1": 2.0, "4": 0.5}}),
     ("user 5 counts twice, user 6 has weight 3", {"weights": {"5": 2.0, "6": 3.0}}),

@@ -12,14 +12,24 @@ from dataclasses import dataclass, replace
 
 from wirelessagent.language.as_meant import taking_back
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
-from wirelessagent.language.judged import Judged
-from wirelessagent.language.mentions import ANY_NOUN, ARTICLES, EXCEPTED, GIVEN_TO, NOBODY, WITHOUT, Mention, Role
+from wirelessagent.language.judged import BOUNDED, Judged
+from wirelessagent.language.mentions import (
+    ANY_NOUN,
+    ARTICLES,
+    EXCEPTED,
+    GIVEN_TO,
+    JOINT_WORDS,
+    NOBODY,
+    WITHOUT,
+    Mention,
+    Role,
+)
 from wirelessagent.language.moods import lifted_in, may_be_lifted
-from wirelessagent.language.numerals import Number
+from wirelessagent.language.numerals import Number, numbers
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.stated import Beside, Doubt, Reading
-from wirelessagent.language.text import AND, Phrases, Span, clause_end, clause_start
-from wirelessagent.language.word_tables import deferred, either
+from wirelessagent.language.stated import Doubt, Multiple, Reading
+from wirelessagent.language.text import AND, Beside, Phrases, Span, clause_end, clause_start
+from wirelessagent.language.word_tables import any_word, deferred, either
 
 _SURE_OF_A_ROLE, _SURE_OF_SILENCE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.9, 0.5, 0.45
 _SAID = 0.4
@@ -28,7 +38,14 @@ _ADDS = Phrases(either("figures", "users", "adds"))
 _NOT_AHEAD = deferred(rf"(?i)(?:{either('figures', 'one', 'not_who')})\s*(?:{GIVEN_TO}\s*)*$")
 _BUT_BEHIND = deferred(rf"(?i)\s*号?(?:{either('figures', 'one', 'but_who')})\s*(?:{GIVEN_TO}\s*)*{ANY_NOUN}")
 _LEAVING = Phrases(either("figures", "users", "leaving"))
+_GETS = deferred(
+    rf"(?i)(?:[\s,:=]|\b(?:is|ist|est|es)\b|{either('figures', 'users', 'takes')}|"
+    rf"{either('figures', 'bounds', 'rate')}|{any_word('figures', 'users', 'gets')}|{ARTICLES}|[的是就则要应该])*"
+)
 _ALIKE = either("figures", "users", "alike")
+_ONLY_JOINS = deferred(
+    rf"(?i)(?:[\s,;:.、\uff0c\uff1b。和与]|{JOINT_WORDS}|{GIVEN_TO}|{ANY_NOUN}|\b(?:but|then|alors|dann|pero)\b)*"
+)
 _GIVEN_ALIKE = Beside(
     deferred(rf"(?i)(?:{_ALIKE})\s*(?:{either('figures', 'users', 'given_to')})\s*(?:(?:{ARTICLES})\s*)?$"),
     deferred(
@@ -37,10 +54,7 @@ _GIVEN_ALIKE = Beside(
     ),
 )
 _UNLIMITED = deferred(rf"(?i){either('figures', 'users', 'free')}")
-_FREE = deferred(
-    rf"(?i)\s*号?\s*[,(\uff0c]\s*[^,;.()\uff0c；。]*?(?:{either('figures', 'users', 'free')})[^,;.()\uff0c；。]*"
-)
-"""What is said, between commas, of somebody excepted who goes without: "all but user 1, who is uncapped, …"."""
+_ASIDE = deferred(r"\s*[,(\uff0c][^,;.()\uff0c；。]*")
 _SILENT = ("kept", "stale")
 """Roles of somebody who is only spoken of."""
 _UNSETTLED = ("exempt", "unclear")
@@ -85,6 +99,7 @@ class Allotments:
         self._roles: dict[Mention, str] = {}
         self._likely: dict[Mention, str] = {}
         self._lifted: dict[Mention, frozenset[str]] = {}
+        self._multiplied = dict(self._whose_multiples())
         for mention in self._found:
             role = self._assign(mention) if mention.role in ("named", "pronoun") else mention.role
             reading.marks.append((mention.start, mention.end, role + "+" * (len(mention.users) > 1)))
@@ -93,20 +108,26 @@ class Allotments:
             self._weigh(number)
             reading.marks.append((number.start, number.end, "weight"))
 
+    def _whose_multiples(self) -> Iterator[tuple[Mention, Multiple]]:
+        """Whoever gets so many times what another user gets stands ahead."""
+        for multiple in self._reading.multiples:
+            named = [each for each in self._found if each.role == "named" and each.end <= multiple.start]
+            between = self._plain[named[-1].end : multiple.said.start] if named else "?"
+            if _GETS.fullmatch(between):  # not "user 3 pays twice as much as user 2", "user 3 never …"
+                yield named[-1], multiple
+
     def _assign(self, mention: Mention) -> str:
         """Note what somebody is there for, which is given back."""
         role, meant = self._likeliest(mention), self._target(mention)
-        if _GIVEN_ALIKE.behind.match(self._plain, mention.end):  # "le 6 non plus"
+        if self._is_too(mention):  # "le 6 non plus"
             before = [each for each in self._found if each.role == "named" and each.end <= mention.start]
             alone = "given" if len(mention.users) == 1 else role  # "without users 3 and 4, too"
             role = self._roles.get(before[-1], "given") if before else alone
         if role == "given" or not meant.users:
             return role
         self._roles[mention] = role
-        if role == "exempt":  # a clause that only says to whom nothing is promised: "user 7 has no least rate"
-            start, end = self._clause_of(mention)
-            if not self._has_figures(start, end):
-                self.spans.append((start, end))
+        if role == "exempt":  # words that only say to whom nothing is promised: "user 7 has no least rate"
+            self.spans.append(self._own_words(mention))
         if role in _UNSETTLED:
             return role
         if role == "stale":
@@ -143,9 +164,10 @@ class Allotments:
             meant = [name for name in RATES if self._given[name] and (not lifts or may_be_lifted(name, lifts))]
             of_all = [name for name in meant if EVERYBODY in self._given[name]]
             own = any(user in self._given[name] for name in meant for user in mention.users)
+            alone = any({*self._given[name]} <= {*mention.users} for name in meant)
             others = [user for user in self._judged.users_of_the_cell if user not in mention.users]
             known = "max_rate_bps" not in of_all or others  # a ceiling of the others is one of each of them
-            if not (known and (meant if lifts else len(of_all) == 1 and not own)):  # what, if any, does not hold
+            if alone or not (known and (meant if lifts else len(of_all) == 1 and not own)):  # what does not hold
                 continue
             self._used.add(mention)
             self._roles[mention] = "given"
@@ -164,14 +186,29 @@ class Allotments:
             for user in [user for user in caps if user not in floors]:
                 floors[user] = _Given(value=0.0, text=caps[user].text)
 
+    def _give_multiples(self) -> None:
+        """So many times the one rate of somebody else; without one, nobody knows what is meant."""
+        for mention, multiple in self._multiplied.items():
+            of = [name for name in RATES if multiple.user in self._given[name]]
+            text = self._text[multiple.start : multiple.end]
+            if len(of) == 1:
+                value = self._given[of[0]][multiple.user].value * multiple.times
+                name = BOUNDED.get(multiple.said.comparator or "", of[0])
+                self._given[name].update(dict.fromkeys(mention.users, _Given(value=value, text=text)))
+                self._used |= {mention, *(each for each in self._found if each.start <= multiple.whose < each.end)}
+        known = [multiple for mention, multiple in self._multiplied.items() if mention in self._used]
+        for multiple in self._reading.multiples:
+            if multiple not in known:
+                self._reading.doubt("calculated", text=self._text[multiple.start : multiple.end])
+
     def _give_alike(self) -> None:
         """The figures of whoever was named before for whom the same is said: "user 5 the same", "lo mismo al 4"."""
         named = [mention for mention in self._found if mention.role == "named"]
         for before, mention in itertools.pairwise(named):
             ahead = _GIVEN_ALIKE.ahead.search(self._plain, before.end, mention.start)
-            said = ahead or _GIVEN_ALIKE.behind.match(self._plain, mention.end)
+            said = ahead or (self._is_too(mention) and _GIVEN_ALIKE.behind.match(self._plain, mention.end))
             own = any(user in given for given in self._given.values() for user in mention.users)
-            if said is None or own or mention in self._used:
+            if not said or own or mention in self._used:
                 continue
             rated = any(user in self._given[name] for name in RATES for user in before.users)
             for given in [self._given[name] for name in (RATES if rated else FIGURES_OF_USERS)]:
@@ -181,6 +218,15 @@ class Allotments:
                     self._used.add(mention)
                     self._roles[mention] = "given"
             self.spans.append(said.span())
+
+    def _is_too(self, mention: Mention) -> bool:
+        """Whether the same is said of somebody as of whoever stands ahead: nothing but a joint stands between."""
+        plain = self._plain
+        ends = [number.end for number in numbers(plain)] + [figure.phrase_end for figure in self._judged.figures]
+        ends += [each.end for each in self._found if each is not mention]
+        last = max((end for end in ends if end <= mention.start), default=0)
+        joined = _ONLY_JOINS.fullmatch(plain, last, mention.start) is not None
+        return joined and _GIVEN_ALIKE.behind.match(plain, mention.end) is not None
 
     def _write_out_the_others(self) -> None:
         """A ceiling of the others becomes one of each of them, where users are named who have none."""
@@ -193,16 +239,18 @@ class Allotments:
 
     def _likeliest(self, mention: Mention) -> str:
         """What somebody is there for; without certainty it is unclear."""
+        if mention in self._multiplied:
+            return "given"
         of_all = any(each.role == "everybody" and each.end <= mention.start for each in self._found)
         denied = not of_all and _NOT_AHEAD.search(self._plain, 0, mention.start)
         if denied and _BUT_BEHIND.match(self._plain, mention.end):  # "not user 3 but user 2"
             return "stale"
         chances, said = self._judged.user(mention), self._judged.said_of(mention)
-        clause = self._plain[slice(*self._clause_of(mention))]
-        if self._is_out_of_all(mention) and (lifted_in(clause) or _UNLIMITED.search(clause)):
+        lifted, clause = self._goes_without(mention), self._plain[slice(*self._clause_of(mention))]
+        if lifted is None and self._is_out_of_all(mention) and (lifted_in(clause) or _UNLIMITED.search(clause)):
             return "unclear"  # "no limit on anyone except user 3", "lift the least rate of all but user 3"
-        self._lifted[mention] = self._goes_without(mention)
-        if said["exempt"] > _SURE_OF_A_ROLE or self._lifted[mention] or self._is_free(mention):
+        if said["exempt"] > _SURE_OF_A_ROLE or lifted is not None:
+            self._lifted[mention] = lifted or frozenset()
             return "exempt"  # whatever rate stands beside it is that of all others
         role = self._likely[mention] = max(chances, key=lambda each: chances[each])
         if role == "users" and self._others_have_a_figure(mention):  # who are served then, too
@@ -223,19 +271,30 @@ class Allotments:
         everybody = any(NOBODY.search(self._plain[each.start : each.end]) is None for each in among)
         return everybody and EXCEPTED.search(self._plain, start, mention.start) is not None
 
-    def _goes_without(self, mention: Mention) -> frozenset[str]:
-        """The limits that are lifted where all that is said of somebody lifts them: "user 6 no guarantee"."""
-        start, end = self._clause_of(mention)
-        lifted = frozenset[str](() if self._has_figures(start, end) else lifted_in(self._plain[start:end]))
-        return lifted if lifted <= {*RATES, "all", "ceilings"} else frozenset()
+    def _goes_without(self, mention: Mention) -> frozenset[str] | None:
+        """The limits that are lifted where all that is said of somebody lifts them; none of them where that is unsaid.
 
-    def _is_free(self, mention: Mention) -> bool:
-        """Whether somebody is excepted and said to go without, in words that wish for nothing else."""
-        free = _FREE.match(self._plain, mention.end)
-        if free is None or self._has_figures(*free.span()) or not EXCEPTED.search(self._plain, 0, mention.start):
-            return False
-        self.spans.append(free.span())
-        return True
+        "user 6 no guarantee", "all but user 1, who is uncapped": nothing else is wished of them, in their own words.
+        """
+        start, end = self._own_words(mention)
+        words, behind = self._plain[start:end], [each for each in self._found if each.role == "pronoun"]
+        if any(each.start == end for each in (*self._judged.figures, *behind)):  # "user 3 has no cap, so limit it to …"
+            return None
+        lifted = frozenset(lifted_in(words))
+        if lifted:
+            return lifted if lifted <= {*RATES, "all", "ceilings"} else None
+        same = (each for each in self._found if {*each.users} == {*mention.users})
+        excepted = any(EXCEPTED.search(self._plain, 0, each.start) for each in same)
+        return lifted if excepted and _UNLIMITED.search(words) else None
+
+    def _own_words(self, mention: Mention) -> Span:
+        """Where words stand that are of somebody alone: between the figures and users beside, or behind a comma."""
+        spans = [(each.start, each.end) for each in (*self._judged.figures, *self._found) if each is not mention]
+        start = max([clause_start(self._plain, mention.start), *(end for _, end in spans if end <= mention.start)])
+        ends = [first for first, _ in spans if first >= mention.end]
+        last = clause_end(self._plain, mention.end)
+        aside = _ASIDE.match(self._plain, last) if not self._plain[mention.end : last].strip() else None
+        return start, min([aside.end() if aside else last, *ends])
 
     def _others_have_a_figure(self, mention: Mention) -> bool:
         """Whether the others, named behind somebody, have a figure in their clause: "除了用户4和5，其他人至少700k".
@@ -316,6 +375,7 @@ class Allotments:
 
     def take_users(self) -> Iterator[tuple[int, int]]:
         """The named users of whom nothing was said, or nothing certain, as spans."""
+        self._give_multiples()
         self._give_alike()
         self._exempt()
         self._write_out_the_others()

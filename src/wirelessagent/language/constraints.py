@@ -16,8 +16,15 @@ from wirelessagent.language.as_meant import turns
 from wirelessagent.language.comparators import WITH, speaks_of
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.stated import CARRIERS, Beside, Reading, doubt_parts, take_blocks, take_counts
-from wirelessagent.language.text import Phrases, clause_end, clause_start, overlaps
+from wirelessagent.language.stated import (
+    CARRIERS,
+    Reading,
+    doubt_parts,
+    take_blocks,
+    take_counts,
+    take_multiples,
+)
+from wirelessagent.language.text import Beside, Phrases, clause_end, clause_start, overlaps
 from wirelessagent.language.word_tables import deferred, either
 
 _STEP = Phrases(either("figures", "one", "watt_more"), marks="watt vatio 一瓦")
@@ -76,6 +83,7 @@ def read_constraints(
     """
     reading = Reading(text=text, plain=plain, quantities=quantities, turns=turns(plain))
     take_blocks(reading)
+    take_multiples(reading)
     reader = _Reader(reading, names, max_power_w)
     reader.take_numbers()
     reader.take_figures()

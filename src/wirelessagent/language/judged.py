@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.figure_roles import answers, likely, shipped_roles
@@ -17,8 +17,8 @@ from wirelessagent.language.number_roles import ITEMS, Numbers, everybody_named,
 from wirelessagent.language.numerals import Number, factors
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.request import numbered
-from wirelessagent.language.stated import CARRIERS, EACH_CARRIER, POWER_NOUNS, Beside, shares_power
-from wirelessagent.language.text import Phrases, Span, clause_start
+from wirelessagent.language.stated import CARRIERS, EACH_CARRIER, POWER_NOUNS, is_spared, shares_power
+from wirelessagent.language.text import AND, Beside, Phrases, Span, clause_start
 from wirelessagent.language.word_tables import any_word, deferred, either
 
 # The share of those who have a rate or a weight, among all users named and among those of each role.
@@ -37,13 +37,16 @@ _HEADS = {
 _HEAD = any_word("figures", "bounds", "floors_of", "caps_of")
 _UNBOUND = deferred(rf"(?i)\s*(?:$|[^\w\s]|{GIVEN_TO}|{JOINT_WORDS}|(?:{_AS})\s*{_HEAD}(?!\w))")
 _GOES_ON = deferred(rf"(?i)\s*[,)\uff0c]\s*(?:{either('figures', 'users', 'takes')})")
+_JOINED = deferred(rf"(?i)(?:{AND})|[和与跟及]|\(")
+_ENDED = deferred(rf"(?i)\s*(?:$|[,.;:!?)\uff0c\uff1b。、](?![0-9])|(?:{AND})\b|然后)")
 _CEILINGS = ("max_power_w", "subcarrier_max_power_w")
-_BOUNDED = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
+BOUNDED = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
 _DENIED = Phrases(either("moods", "negation", "clause"))
 _CARRIER_AHEAD = deferred(
     rf"(?i){EACH_CARRIER}\w*\s*(?:(?:{either('figures', 'users', 'takes')}|{POWER_NOUNS}|功率|上限|[:=])\s*)*$"
 )
 _CARRIER_BEHIND = deferred(rf"(?i)\s*(?:(?:on|in|for|auf|bei|en|sur|dans|pour|para)\s+)?{EACH_CARRIER}")
+_SURE, _PERHAPS = 0.8, 0.2
 _ONCE, _MOST_POWERS, _HARDLY = ("max_power_w", "circuit_power_w", "subcarrier_max_power_w"), 4, 0.01
 
 
@@ -124,15 +127,37 @@ class Judged:
             alone, last = [first, *itertools.takewhile(self._has_no_bound, behind)], [first, *behind][-1]
             if first.comparator is None and len(alone) > len(behind):
                 means |= dict.fromkeys((each.start for each in alone), jointly([means[each.start] for each in alone]))
-            bound = _BOUNDED.get(first.comparator or "") if first.phrase_start < first.start else None
+            bound = BOUNDED.get(first.comparator or "") if first.phrase_start < first.start else None
             plain = self._look.plain
             headed = (name for name, head in _HEADS.items() if head.is_at(plain, first.start, last.end))
             bound = next(headed, bound) if first.comparator is None else bound
             if bound is not None:  # not "2 Mbit/s max, user 3 1 Mbit/s"
                 chances = moved(means[first.start], ("min_rate_bps", "max_rate_bps", "both"), bound)
                 means |= dict.fromkeys((each.start for each in alone), chances)
-        powers = [figure.start for figure in self._look.figures if figure.kind == "power"][:_MOST_POWERS]
-        return means | dict(zip(powers, _each_once([means[start] for start in powers]), strict=True))
+        for last, figure in itertools.pairwise(each for each in self._look.figures if each.kind == "rate"):
+            open_ = figure.comparator is None and max(means[figure.start].values()) < _SURE
+            if open_ and self._is_an_exception(last.end, figure.start):
+                means[figure.start] = jointly([means[last.start], means[figure.start]])
+        again = dict(self._said_again(means))
+        powers = [each.start for each in self._look.figures if each.kind == "power" and each.start not in again]
+        powers = powers[:_MOST_POWERS]
+        means |= dict(zip(powers, _each_once([means[start] for start in powers]), strict=True))
+        return means | {start: means[first] for start, first in again.items()}
+
+    def _is_an_exception(self, start: int, end: int) -> bool:
+        """Whether a figure at the end is of somebody excepted: "at most 2 Mbit/s, but for user 2, who is at 1"."""
+        between = [each for each in self.mentions if each.role == "named" and start <= each.start and each.end <= end]
+        return bool(between) and EXCEPTED.search(self._look.plain, 0, between[-1].start) is not None
+
+    def _said_again(self, means: Mapping[int, Mapping[str, float]]) -> Iterator[tuple[int, int]]:
+        """Where a power is only said once more, and where at first: "five watts I think, yes, five watts"."""
+        plain, powers = self._look.plain, [figure for figure in self._look.figures if figure.kind == "power"]
+        for one, other in itertools.pairwise(powers):
+            words, its = plain[one.phrase_end : other.phrase_start], means[one.start]
+            may_be = means[other.start][max(its, key=lambda role: its[role])] > _PERHAPS
+            alone = _JOINED.search(words) is None and _ENDED.match(plain, other.phrase_end) is not None
+            if one.value == other.value and any(map(str.isalpha, words)) and alone and may_be:
+                yield other.start, one.start
 
     def _has_no_bound(self, figure: Quantity) -> bool:
         """Whether a figure leaves open how it bounds: "user 2 1 Mbit/s guaranteed" does not."""
@@ -177,13 +202,15 @@ def _as_bounded(
     """
     if figure.kind == "power" and figure.comparator == "at_least":
         return moved(chances, _CEILINGS, "floor")
+    if figure.kind == "ratio" and is_spared(plain, figure):
+        return moved(chances, tuple(chances), "share")
     if figure.kind == "ratio" and shares_power(plain, figure):
         return moved(chances, ("outage", "reliability"), "share")
     if figure.kind == "power" and _is_of_a_carrier(plain, figure, before):
         return moved(chances, tuple(chances), "subcarrier_max_power_w")
     if figure.kind == "power" and not carriers:
         return moved(chances, ("subcarrier_max_power_w",), "max_power_w")
-    bound = _BOUNDED.get(figure.comparator or "") if figure.kind == "rate" else None
+    bound = BOUNDED.get(figure.comparator or "") if figure.kind == "rate" else None
     return chances if bound is None else moved(chances, ("min_rate_bps", "max_rate_bps", "both"), bound)
 
 

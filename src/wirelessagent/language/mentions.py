@@ -75,7 +75,7 @@ ANY_NOUN = rf"(?:{NOUN}|{ZH_NOUN})"
 _ZH_JOINT = r"\s*号?\s*(?:、|,|\uff0c|和|与|跟|及|以及|到|至|-|~)\s*|\s+(?=[0-9]{1,2}(?:\s+[0-9]{1,2})*\s*号)"
 _ZH_LIST = "[0-9]{3,4}|" + "|".join(
     rf"{number}(?:(?:{_ZH_JOINT}){number}|\s*号\s*{number}(?=\s*号))*"
-    for number in ("[0-9]{1,2}(?![0-9])", "[一二三四五六七八九十]{1,3}")
+    for number in ("[0-9]{1,2}(?![0-9])", "[一二三四五六七八九十]{1,7}")
 )
 _ZH = deferred(
     rf"(?<!其他)(?<!其它)(?<!其余)(?:{ZH_NOUN}\s*(?P<after>{_ZH_LIST})(?!\s*[个名位台户兆瓦百千点起样直定边次共切致]|下(?!限))号?)"
@@ -135,12 +135,14 @@ _OUT_OF, _AMONG, _RANGED, _INCLUDED, _EXCEPT, _BUT, _EXCEPTED_BEHIND = (
 _OUT_OF_THOSE, _RANGED_AHEAD = deferred(rf"(?i)\s*(?:{_OUT_OF}|{_AMONG})'?\s*"), deferred(rf"(?i){_RANGED}'?\s*$")
 _FROM_ONE_TO = deferred(rf"(?i)\s*(?!{_OUT_OF}){_AMONG}")
 EXCEPTED = deferred(rf"(?i)(?:{_EXCEPT}|{_BUT})\s*(?:{GIVEN_TO}\s*)*(?:l')?$")
-_ONE, _OTHER = (
+SOMEBODY, _OTHER = (
     rf"\s*(?:{GIVEN_TO}\s*)*(?:l')?(?:{ANY_NOUN}\s*)?(?:{_NO}\s*)?(?P<{name}>{_LIST}|{_ZH_LIST})\s*号?"
     for name in ("one", "other")
 )
-_BUT_FOR = deferred(rf"(?i)\s*号?\s*[,(\uff0c]?\s*(?:(?:{_EXCEPT}){_ONE}|{_OTHER}\s*{_EXCEPTED_BEHIND})\s*(?:外|\))?")
-_ALL_BUT = deferred(rf"(?i)(?:{_EXCEPT})(?P<other>){_ONE}(?:以?外|之外)?\s*[,\uff0c的]?\s*(?:{GIVEN_TO}\s*)*$")
+_BUT_FOR = deferred(
+    rf"(?i)\s*号?\s*[,(\uff0c]?\s*(?:(?:{_EXCEPT}){SOMEBODY}|{_OTHER}\s*{_EXCEPTED_BEHIND})\s*(?:外|\))?"
+)
+_ALL_BUT = deferred(rf"(?i)(?:{_EXCEPT})(?P<other>){SOMEBODY}(?:以?外|之外)?\s*[,\uff0c的]?\s*(?:{GIVEN_TO}\s*)*$")
 WHO = deferred(
     rf"(?i)\s*(?:{_EXCEPTED_BEHIND})?\s*[,(\uff0c]?\s*(?:{either('figures', 'users', 'relative')})[^,;.()\uff0c；。]*"
 )
@@ -249,7 +251,7 @@ def named(plain: str) -> Iterator[Mention]:
         if group == "rate_of" and plain[match.start()] != "R":
             continue
         end = _without_quantity(plain, match, group)
-        users = _listed(plain[match.start(group) : min(end, match.end(group))])
+        users = listed_users(plain[match.start(group) : min(end, match.end(group))])
         if users and end > match.start(group):
             yield Mention(role="named", users=users, start=match.start(), end=end)
 
@@ -280,12 +282,15 @@ def is_of_each(plain: str, start: int) -> bool:
     return _EACH_OF.search(plain, max(0, start - 40), start) is not None
 
 
-def _listed(text: str) -> tuple[str, ...]:
+def listed_users(text: str) -> tuple[str, ...]:
     """The users of a list such as "1, 2 and 5" or "1 to 4"."""
     users: list[int] = []
     end = 0
     for part in _ITEM.finditer(text):
-        user = _number(part.group())
+        word = part.group()
+        user = _number(word)
+        if user is None and is_chinese(word[0]) and "十" not in word:  # 一二七号
+            users.extend(int(chinese_value(digit) or 0) for digit in word)
         if user is None:
             continue
         spans = users and _UP_TO.fullmatch(text, end, part.start())
@@ -314,7 +319,7 @@ def merged(plain: str, found: Sequence[Mention]) -> list[Mention]:
         again = {*mention.users} <= {*last.users}  # "to 1 and 6, 1 at least …"
         if merged and last.role == mention.role == "named" and not again:
             if _UP_TO.fullmatch(plain, last.end, mention.start):
-                between = [*_listed(f"{last.users[-1]} to {mention.users[0]}")]
+                between = [*listed_users(f"{last.users[-1]} to {mention.users[0]}")]
             elif JOINT.fullmatch(plain, last.end, mention.start) and (
                 _AND_BETWEEN.search(plain, last.end, mention.start) or _GOES_ON.match(plain, mention.end)
             ):  # a comma joins only where the list goes on
@@ -339,7 +344,7 @@ def _but_for(plain: str, found: Sequence[Mention]) -> list[Mention]:
         several = len(each.users) > 1 and not NOBODY.search(plain[clause_start(plain, each.start) : each.start])
         behind = _BUT_FOR.match(plain, each.end) if several else None
         said = behind or (_ALL_BUT.search(plain, 0, each.start) if several else None)
-        without = _listed(said["one"] or said["other"]) if said and unit_at(plain, said.end()) is None else ()
+        without = listed_users(said["one"] or said["other"]) if said and unit_at(plain, said.end()) is None else ()
         if said and without and {*without} < {*each.users}:
             users = tuple(user for user in each.users if user not in without)
             end = each.end if WHO.match(plain, said.end()) else max(each.end, said.end())
@@ -371,7 +376,7 @@ def _distributed(plain: str, found: Sequence[Mention]) -> list[Mention]:
                 break
             mention = replace(mention, start=kept.pop().start)
             if len(mention.users) == 2 and _FROM_ONE_TO.match(plain, each.end):  # "everybody between user 2 and user 5"
-                mention = replace(mention, users=_listed(" to ".join(mention.users)))
+                mention = replace(mention, users=listed_users(" to ".join(mention.users)))
         kept.append(mention)
     return kept
 
@@ -384,7 +389,7 @@ def _parted(plain: str, mention: Mention) -> tuple[Mention, ...]:
     comma = _LAST_COMMA.search(plain, mention.start, mention.end)
     if comma is None:
         return (mention,)
-    first, last = _listed(plain[mention.start : comma.start()]), _listed(plain[comma.end() : mention.end])
+    first, last = listed_users(plain[mention.start : comma.start()]), listed_users(plain[comma.end() : mention.end])
     ahead = plain[max(clause_start(plain, mention.start), mention.start - _NEAR) : mention.start]
     own = not plain[comma.end()].isdigit() or plain[comma.start() - 1] in "号號"  # "el 4", "8号"
     apart = own and len(last) == 1 and WITHOUT.search(ahead) is not None and not _GOES_ON.match(plain, mention.end)

@@ -302,7 +302,7 @@ class _Reader:
         """The value with its halves and quarters: "three quarters", "two and a half"."""
         if self._is_part(0) and (value is not None or self._word() in self._grammar.alone):
             share = self._grammar.parts[self._word()]
-            if share == _HALF and (value or 0) > 1 and not self._word().endswith(("s", "e")):
+            if self._language == "es" and (value or 0) > 1 and self._word() in ("medio", "media"):
                 return value  # "al dos medio mega"
             self._place += 1
             return share if value is None else value * share

@@ -14,10 +14,11 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from wirelessagent.language.mentions import SOMEBODY
 from wirelessagent.language.moods import named_in
 from wirelessagent.language.numerals import factors
 from wirelessagent.language.quantities import measures
-from wirelessagent.language.text import clause_start, normalise, overlaps, written_over
+from wirelessagent.language.text import Beside, clause_start, normalise, overlaps, written_over
 from wirelessagent.language.word_tables import any_word, deferred, either, words_of
 
 _OF, _BETWEEN = (rf"(?<!\w){any_word('figures', 'shares_of', name)}(?!\w)" for name in ("of", "between"))
@@ -40,6 +41,9 @@ _OF_IT_BEHIND = deferred(
 )
 _OF_IT_AHEAD = deferred(rf"{_IT_AHEAD}\s*$")
 _AGAIN = deferred(rf"(?i)[^,;.]*\b(?:{any_word('figures', 'shares_of', 'again')})\b")
+_THAN = either("figures", "shares_of", "than")
+OF_SOMEBODY = Beside(deferred(rf"(?i){SOMEBODY}\s*的\w{{0,4}}$"), deferred(rf"(?i)\s*(?:{_THAN})[' ]?{SOMEBODY}"))
+"""What makes a multiple one of another user's rate: "as much as user 1", 用户1的."""
 _NO_SHARE = words_of("figures", "shares_of", "no_share")
 _RARELY, _USUALLY = 0.1, 0.9
 """Up to and from where on a percentage of a figure may as well be how often it is to be kept, or missed."""
@@ -97,6 +101,8 @@ def _is_part(share: _Figure) -> bool:
 def _of_one_ahead(plain: str, share: _Figure, base: _Figure) -> Iterator[tuple[int, int, str]]:
     """A share of a figure that stands before it."""
     worth = _written(base, share.value)
+    if OF_SOMEBODY.behind.match(plain, share.end):  # "twice that of user 1"
+        return
     it, its = _OF_IT_BEHIND.match(plain, share.end), _OF_IT_AHEAD.search(plain, base.end, share.start)
     if its is not None:
         yield its.start(), share.end, worth

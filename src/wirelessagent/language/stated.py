@@ -13,39 +13,23 @@ superscript is either part of a quantity, of a count that describes the cell, of
 from __future__ import annotations
 
 import functools
-import re
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
 from typing import NamedTuple
 
+from wirelessagent.language.comparators import Comparison, comparison
 from wirelessagent.language.intent import Constraint
-from wirelessagent.language.mentions import BY_PLACE, PLACED
+from wirelessagent.language.mentions import BY_PLACE, PLACED, listed_users
 from wirelessagent.language.moods import named_in
 from wirelessagent.language.number_words import cardinals, german_value, plain_word
 from wirelessagent.language.numerals import Number, factors, numbers
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.text import Phrases, Span, clause_end, clause_start, is_chinese, is_within, overlaps
+from wirelessagent.language.shares import OF_SOMEBODY
+from wirelessagent.language.text import Beside, Phrases, Span, clause_end, clause_start, is_chinese, is_within, overlaps
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.word_tables import deferred, either, languages_with, table, words_of
-
-
-class Beside(NamedTuple):
-    """Words right ahead of a span of a normalised text, and words right behind."""
-
-    ahead: re.Pattern[str]
-    behind: re.Pattern[str]
-
-    def is_at(self, plain: str, start: int, end: int, from_: int = 0) -> bool:
-        """Whether such words stand on either side of a span, those ahead no farther than ``from_``."""
-        return bool(self.ahead.search(plain, from_, start) or self.behind.match(plain, end))
-
-    def widened(self, plain: str, span: Span) -> Span:
-        """The span with such words."""
-        ahead, behind = self.ahead.search(plain, 0, span[0]), self.behind.match(plain, span[1])
-        return ahead.start() if ahead else span[0], behind.end() if behind else span[1]
-
 
 # Generations, picture sizes and the like: they look like figures and describe.
 _NAMES = deferred(
@@ -185,7 +169,10 @@ COUNTED_USERS = deferred(
 CARRIERS = Phrases(either("figures", "bounds", "carriers"))
 _SOME_USERS, _ONE_OF = (Phrases(either("figures", "users", name, **PLACED)) for name in ("some", "one_of"))
 _OF_OURS = r"(?:\w+\s+){0,3}?(?:power|watts?|wattage|rates?|speeds?|throughput|bandwidth|budget|limit)\b"
-_HALVED = Phrases(either("figures", "one", "halved", ours=_OF_OURS), marks="half halve third quarter 减半 一半 翻倍")
+_HALVED = Phrases(
+    either("figures", "one", "halved", ours=_OF_OURS),
+    marks="half halve third quarter doub doppel triple twice dupli dobl 减半 一半 翻倍",
+)
 _OTHERS_HALVED = Phrases(
     r"(?:其余|其他|别人|剩下|剩余|旁人|另外)[^,\uff0c。0-9]{0,5}(?:一半|减半|翻倍|双倍|加倍)",
     marks="一半 减半 翻倍 双倍 加倍",
@@ -206,6 +193,7 @@ EACH_CARRIER = rf"(?:{either('figures', 'shared', 'per')})\s*子?(?:{either('fig
 _PER_CARRIER = Beside(
     deferred(rf"(?i){EACH_CARRIER}[^,;.\uff0c。0-9]{{0,16}}$"), deferred(rf"(?i)\s*(?:\w+\s+)?{EACH_CARRIER}")
 )
+_IS_SHARED = deferred(rf"(?i)\b(?:{_BUDGET})\b|功率|预算")
 _UNUSED = deferred(rf"(?i)\s*(?:{either('figures', 'shared', 'unused')})")
 
 
@@ -214,6 +202,12 @@ def shares_power(plain: str, figure: Quantity) -> bool:
     ahead = plain[clause_start(plain, figure.phrase_start) : figure.phrase_start]
     promises = any(name == "outage_probability" for _, name in named_in(ahead))
     return not promises and _OF_THE_BUDGET.match(plain, figure.phrase_end) is not None
+
+
+def is_spared(plain: str, figure: Quantity) -> bool:
+    """Whether a share of the budget is said to be left unused: 预算留两成不动."""
+    ahead = plain[clause_start(plain, figure.phrase_start) : figure.phrase_start]
+    return _UNUSED.match(plain, figure.phrase_end) is not None and _IS_SHARED.search(ahead) is not None
 
 
 _TOGETHER: dict[str, int] = {
@@ -240,6 +234,20 @@ _GROUPED = Beside(
         r"资源块|块|组)*"
     ),
 )
+
+
+_OF_WEIGHTS = Phrases(either("figures", "users", "weighs"))
+
+
+class Multiple(NamedTuple):
+    """So many times what another user gets, "half as much as user 1", who stands at ``whose``."""
+
+    times: float
+    user: str
+    start: int
+    end: int
+    whose: int
+    said: Comparison
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -269,6 +277,7 @@ class Reading:
         spoken_for: spans whose figures are used up before any figure is looked at.
         turns: where words stand that take back what is said ahead of them: "no, wait", "更正".
         ends: where the figure of each constraint of the whole cell ends.
+        multiples: rates that are said by those of others.
     """
 
     text: str
@@ -290,6 +299,7 @@ class Reading:
     spoken_for: list[Span] = field(default_factory=list[Span])
     turns: Sequence[Span] = ()
     ends: dict[str, int] = field(default_factory=dict[str, int])
+    multiples: list[Multiple] = field(default_factory=list[Multiple])
 
     def doubt(self, key: str, **names: str) -> None:
         """Note a question."""
@@ -354,6 +364,22 @@ def take_blocks(reading: Reading) -> None:
     size = _TOGETHER.get(word) or german_value(plain_word(word, "de"))
     if match is not None and size:
         reading.take_group(float(size), match.span())
+
+
+def take_multiples(reading: Reading) -> None:
+    """What is so many times another user's rate, and no weight: "user 2 half as much as user 1", 用户8是用户1的三倍."""
+    plain = reading.plain
+    for factor in factors(plain) if _OF_WEIGHTS.search(plain) is None else ():
+        said = OF_SOMEBODY.behind.match(plain, factor.end) or OF_SOMEBODY.ahead.search(plain, 0, factor.start)
+        users = listed_users(said["one"]) if said is not None else ()
+        if said is not None and len(users) == 1 and unit_at(plain, said.end("one")) is None:
+            start, end = min(said.start(), factor.start), max(said.end(), factor.end)
+            after = max((each.phrase_end for each in reading.quantities if each.phrase_end <= start), default=0)
+            bound = comparison(plain, start, end, kind="rate", after=after)
+            whose = said.start("one")
+            reading.multiples.append(Multiple(float(factor.value or 0), users[0], start, end, whose, bound))
+            reading.spoken_for.append((factor.start, factor.end))
+            reading.masked.append((start, end))
 
 
 def take_counts(reading: Reading, recounted: Sequence[Span], allotted: Sequence[Span], of_all: int) -> None:

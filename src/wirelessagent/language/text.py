@@ -13,7 +13,7 @@ import unicodedata
 import zlib
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from wirelessagent.language.word_tables import any_word, deferred
 
@@ -119,6 +119,22 @@ def overlaps(span: Span, others: Iterable[Span]) -> bool:
     (False, True)
     """
     return any(start < span[1] and span[0] < end for start, end in others)
+
+
+class Beside(NamedTuple):
+    """Words right ahead of a span of a normalised text, and words right behind."""
+
+    ahead: re.Pattern[str]
+    behind: re.Pattern[str]
+
+    def is_at(self, plain: str, start: int, end: int, from_: int = 0) -> bool:
+        """Whether such words stand on either side of a span, those ahead no farther than ``from_``."""
+        return bool(self.ahead.search(plain, from_, start) or self.behind.match(plain, end))
+
+    def widened(self, plain: str, span: Span) -> Span:
+        """The span with such words."""
+        ahead, behind = self.ahead.search(plain, 0, span[0]), self.behind.match(plain, span[1])
+        return ahead.start() if ahead else span[0], behind.end() if behind else span[1]
 
 
 def is_within(span: Span, other: Span) -> bool:
