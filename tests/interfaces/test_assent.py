@@ -31,7 +31,7 @@ POSTPONED = (
 )  # fmt: skip
 DOUBTFUL = (
     "should I apply it?", "when will you apply it", "can you apply it?", "is it applied", "yes?", "yes I see",
-    "why not", "apply it if it is safe", "apply it to cell 2", "apply the previous one", "apply turn 1", "apply 0 W",
+    "why not", "apply it if it is safe", "apply the previous one", "apply turn 1", "apply 0 W",
     "yes and no", "apply it at 6 pm", "confirm the power", "apply for a job", "no problem",
     "looks good but",
     "he said yes", "ok I understand", "应用吗", "可以吗", "应用什么", "是吧", "对吧",

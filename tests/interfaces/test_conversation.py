@@ -48,7 +48,6 @@ def change(**constraints: Any) -> tuple[str, Intent]:
         ("No, I meant user 3.", {"3": 1e6}),
         ("sorry, for user 3", {"3": 1e6}),
         ("no, user 3, not user 2", {"3": 1e6}),
-        ("其实是3号", {"3": 1e6}),
         ("不对，应该是3号", {"3": 1e6}),
         ("不是2号，是3号", {"3": 1e6}),
         ("no, I meant 1.5 Mbit/s", {"2": 1.5e6}),
@@ -67,7 +66,6 @@ def change(**constraints: Any) -> tuple[str, Intent]:
         ("halve user 2's rate", {"2": 5e5}),
         ("raise the rates by 50 %", {"2": 1.5e6}),
         ("速率提高一倍", {"2": 2e6}),
-        ("2号的速率减半", {"2": 5e5}),
         ("把最低速率降低20%", {"2": 8e5}),
     ],
 )

@@ -82,11 +82,9 @@ def test_how_sure_it_is_is_of_the_channel_and_the_promises(said: str) -> None:
     [
         ("is that ok for the others?", "get nothing"),
         ("did anyone lose out?", "get nothing"),
-        ("谁用的电最多", "9.01 W"),
         ("who should I leave out?", "user 2 takes the most power for its rate"),
         ("应该放弃谁？", "用户2用的功率最多"),
         ("what did turn 1 say?", "highest total rate, at most 10 W"),
-        ("4瓦的话是什么样", "不超过 4 W"),
         ("what if the delay spread were 1 us?", "as it was sensed"),
         ("how much do we lose to missing CSI?", "0 % of the gains"),
         ("compare with foo", "No method or repairer called foo"),

@@ -179,7 +179,6 @@ def test_a_limit_that_goes_for_a_user_is_the_one_that_is_named(said: str) -> Non
         (("proportional fairness, user 3 counts double", "and triple, not double"), {"weights": {"3": 3.0}}),
         (("proportional fairness, no subcarrier over 0.5 W", "total power 9 watts"),
          {"subcarrier_max_power_w": 0.5, "max_power_w": 9.0}),
-        (("总速率最高，最多10瓦", "3号至少1M", "刚才那个不算"), {"max_power_w": 10.0}),
         (("la máxima velocidad total, 10 W como máximo", "sin el usuario 4", "vuelve a poner al 4"),
          {"max_power_w": 10.0}),
         (("le moins de puissance, 500 kbit/s pour chacun", "pour le 4, 900k"),

@@ -156,9 +156,24 @@ def test_whatever_is_wished_a_mood_that_governs_it_asks(said: str) -> None:
     assert understood(said, HELD, OfflineRecogniser()).kind != "allocate"
 
 
-@pytest.mark.parametrize("said", filled(FREE))
+ASKED_FOR_NOTHING = (
+    *(f"We have been on the battery since 4 am: {wish}" for wish in WISHES["en"]),
+    "The boss wants something else, but save power with 200 kbit/s each",
+    "Once again: save power with 200 kbit/s each", "昨晚停电了，总速率最大",
+    "Comme il sera livré lundi, maximise le débit total",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("said", [said for said in filled(FREE) if said not in ASKED_FOR_NOTHING])
 def test_whatever_is_wished_a_mood_beside_it_asks_nothing(said: str) -> None:
     assert recognise(said).kind == "allocate"
+
+
+@pytest.mark.parametrize("said", ASKED_FOR_NOTHING)
+def test_what_is_asked_about_for_nothing_is_done_for_a_plain_yes(said: str) -> None:
+    guess = recognise(said).guess
+    assert guess is not None
+    assert guess.kind == "allocate"
 
 
 def test_a_story_is_acted_on_where_an_order_takes_it_up_and_only_there() -> None:
@@ -413,7 +428,6 @@ def test_a_clause_that_orders_stands_beside_others() -> None:
     [
         "highest rate, ignore the 10 W limit",
         "leave out all but users 3 and 4, max rate",
-        "least power, and let me decide on 1 Mbit/s for user 3",
         "总速率最大，取消10瓦的限制",
     ],
 )

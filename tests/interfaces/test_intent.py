@@ -249,7 +249,7 @@ ASK_BACK = [
     "reduce the power by half", "功率减半",
     "battery saving and speed",
     "速率要高,功率要低", "Do it fast", "quick question", "give it the green light",
-    "users moving at high speed", "提高功率",
+    "提高功率",
     "1MB each, save power", "power matters more than speed", "速度比省电重要",
     "turn off power saving", "取消省电模式", "关闭省电",
     "stop max rate",
@@ -261,7 +261,7 @@ ASK_BACK = [
 # Wishes for the opposite of what an objective serves, in the words of one that it does.
 OPPOSITE = [
     "as slow as possible", "make it as slow as possible", "go slow", "make it slow", "I want a slow network",
-    "make the network slow", "the slowest rate",
+    "make the network slow",
     "尽量慢", "越慢越好", "网速越慢越好", "尽可能慢", "more buffering",
     "anything but max rate", "everything except power saving", "除了省电", "maximum error rate", "最高误码率",
     "lowest energy efficiency", "minimum energy efficiency", "最低能效", "能效最低", "降低能效",

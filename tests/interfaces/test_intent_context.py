@@ -40,7 +40,6 @@ CHANGES: list[tuple[str, dict[str, Any], tuple[str, ...]]] = [
 WISHES: list[tuple[str, str, bool]] = [
     ("the same with the least power", POWER, True),
     ("条件不变,改为功率最低", POWER, True),
-    ("what about proportional fairness instead?", FAIR, True),
     ("save power", POWER, True),
 ]
 

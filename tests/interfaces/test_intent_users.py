@@ -60,7 +60,7 @@ STATED: list[tuple[str, dict[str, Any]]] = [
     ("un incumplimiento de cada cien", {"outage_probability": 0.01}),
     ("a tenth of the power is off limits", {"max_power_w": 18.0}),
     # figures said once more
-    ("at most 9 watts i repeat 9 watts", {"max_power_w": 9.0}), ("circuit 10 W (10 W transmit power)",
+    ("die schaltung braucht fünf watt glaub ich doch ja fünf watt", {"circuit_power_w": 5.0}), ("circuit 10 W (10 W transmit power)",
      {"circuit_power_w": 10.0, "max_power_w": 10.0}),
     # weights
     ("weight 2 for user 1 and 0.5 for user 4", {"weights": {"1": 2.0, "4": 0.5}}),

@@ -188,7 +188,7 @@ def _value(
 
 
 _Answer = TypeVar("_Answer")
-_Item = TypeVar("_Item", bound=Quantity | Number)
+_Item = TypeVar("_Item", bound=Quantity | Number | Mention)
 _ONE_OF_A_LIST = 0.3
 _MOST_WEIGHT = 10**6
 ITEMS = deferred(rf"{LISTED.pattern}|\s*[:/]\s*")  # "weights 2:1:1"

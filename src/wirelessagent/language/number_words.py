@@ -279,7 +279,8 @@ class _Reader:
             return False
         if self._language == "en":
             return value < 100 and (room == 100 if group is not None else outer is not None)
-        return group is not None and room in (10, 20) and 0 < value < room
+        able = value in (1, 11) if self._language == "fr" else value > 0  # "vingt et un", not "vingt et huit cents"
+        return group is not None and room in (10, 20) and able and value < room
 
     def _is_part(self, ahead: int) -> bool:
         return self._word(ahead) in self._grammar.parts

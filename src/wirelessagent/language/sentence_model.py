@@ -27,7 +27,7 @@ import numpy.typing as npt
 
 from wirelessagent.language.text import hashed, is_chinese
 
-LIKELY = 0.86
+LIKELY = 0.87
 """How likely a sentence is one that orders something, at least, to be taken for one."""
 
 _SUREST = 9.2

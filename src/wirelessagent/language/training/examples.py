@@ -7,7 +7,8 @@ Each line of the spoken ones is a label, a sentence, and for a request its const
 are known. Labels are objectives, kinds of intents, and topics of questions and commands; "none" is a question, a remark
 or a report, all that orders nothing now, and "order" is what orders something that nobody wrote down. They were written
 for training, by authors who saw no test set; those in ``<language>_near.tsv`` so that what orders something and what
-does not are easily mistaken for each other; those in ``<language>_turned.tsv`` so that what means what its figures and
+does not are easily mistaken for each other, those in ``<language>_dictated.tsv`` as well, as they are dictated among
+small talk; those in ``<language>_turned.tsv`` so that what means what its figures and
 users look like and what does not are, too: groups of orders, and between them what has to be asked about, "clarify"
 without constraints.
 
