@@ -60,8 +60,8 @@ STATED: list[tuple[str, dict[str, Any]]] = [
     ("un incumplimiento de cada cien", {"outage_probability": 0.01}),
     ("a tenth of the power is off limits", {"max_power_w": 18.0}),
     # figures said once more
-    ("die schaltung braucht fünf watt glaub ich doch ja fünf watt", {"circuit_power_w": 5.0}), ("circuit 10 W (10 W transmit power)",
-     {"circuit_power_w": 10.0, "max_power_w": 10.0}),
+    ("die schaltung braucht fünf watt glaub ich doch ja fünf watt", {"circuit_power_w": 5.0}),
+    ("circuit 10 W (10 W transmit power)", {"circuit_power_w": 10.0, "max_power_w": 10.0}),
     # weights
     ("weight 2 for user 1 and 0.5 for user 4", {"weights": {"1": 2.0, "4": 0.5}}),
     ("user 5 counts twice, user 6 has weight 3", {"weights": {"5": 2.0, "6": 3.0}}),

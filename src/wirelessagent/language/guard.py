@@ -77,12 +77,8 @@ def doubted(text: str, context: Context | None, intent: Intent) -> Span | None:
     """
     if intent.recogniser == READ_IN_A_TALK:
         return None
-    sentence = read_once(_SAME_WITH.sub("", text), own_words(), context)
-    if not any(
-        map(str.isalnum, replaced(sentence.plain, ((*span, "") for span in lifted_in(sentence.plain).values())))
-    ):
-        return None
-    if len(sentence.frame.tokens) < _FEWEST_WORDS:
+    sentence = read_once(_SAME_WITH.sub(lambda said: " " * len(said[0]), text), own_words(), context)
+    if len(sentence.frame.tokens) < _FEWEST_WORDS or _only_lifts(sentence.plain):
         return None
     turn = next(sentence.turns_unread(), None)
     if turn is not None:
@@ -90,6 +86,12 @@ def doubted(text: str, context: Context | None, intent: Intent) -> Span | None:
     if not sentence.chances.is_order:
         return shipped_order_model().against(sentence.frame) or (0, 0)
     return next((span for span, said in sentence.clauses() if said.chances.order < _CLAUSE), None)
+
+
+def _only_lifts(plain: str) -> bool:
+    """Whether a text has no words but those that lift limits."""
+    lifting = sorted(lifted_in(plain).values())
+    return not any(map(str.isalnum, replaced(plain, ((start, end, "") for start, end in lifting))))
 
 
 def is_bent(text: str, context: Context | None, intent: Intent) -> bool:
