@@ -25,6 +25,7 @@ from wirelessagent.language.mentions import (
     Role,
 )
 from wirelessagent.language.moods import lifted_in, may_be_lifted
+from wirelessagent.language.number_roles import everybody_named
 from wirelessagent.language.numerals import Number, numbers
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.stated import Doubt, Multiple, Reading
@@ -42,6 +43,7 @@ _GETS = deferred(
     rf"(?i)(?:[\s,:=]|\b(?:is|ist|est|es)\b|{either('figures', 'users', 'takes')}|"
     rf"{either('figures', 'bounds', 'rate')}|{any_word('figures', 'users', 'gets')}|{ARTICLES}|[的是就则要应该])*"
 )
+_MAY = deferred(r"(?i)(?:\s|\b(?:ne|no|nicht|not|pas|darf|may|must|should|doit|peut|debe|puede|soll)\b)*")
 _ALIKE = either("figures", "users", "alike")
 _ONLY_JOINS = deferred(
     rf"(?i)(?:[\s,;:.、\uff0c\uff1b。和与]|{JOINT_WORDS}|{GIVEN_TO}|{ANY_NOUN}|\b(?:but|then|alors|dann|pero)\b)*"
@@ -113,7 +115,8 @@ class Allotments:
         for multiple in self._reading.multiples:
             named = [each for each in self._found if each.role == "named" and each.end <= multiple.start]
             between = self._plain[named[-1].end : multiple.said.start] if named else "?"
-            if _GETS.fullmatch(between):  # not "user 3 pays twice as much as user 2", "user 3 never …"
+            bounded = multiple.said.comparator is not None and _MAY.fullmatch(between)
+            if bounded or _GETS.fullmatch(between):  # not "user 3 pays twice as much as user 2", "user 3 never …"
                 yield named[-1], multiple
 
     def _assign(self, mention: Mention) -> str:
@@ -203,18 +206,18 @@ class Allotments:
 
     def _give_alike(self) -> None:
         """The figures of whoever was named before for whom the same is said: "user 5 the same", "lo mismo al 4"."""
-        named = [mention for mention in self._found if mention.role == "named"]
-        for before, mention in itertools.pairwise(named):
+        for before, mention in itertools.pairwise(everybody_named(self._found)):
             ahead = _GIVEN_ALIKE.ahead.search(self._plain, before.end, mention.start)
             said = ahead or (self._is_too(mention) and _GIVEN_ALIKE.behind.match(self._plain, mention.end))
-            own = any(user in given for given in self._given.values() for user in mention.users)
+            whose = mention.users or (EVERYBODY,)
+            own = any(user in given for given in self._given.values() for user in whose)
             if not said or own or mention in self._used:
                 continue
             rated = any(user in self._given[name] for name in RATES for user in before.users)
             for given in [self._given[name] for name in (RATES if rated else FIGURES_OF_USERS)]:
                 figures = {given[user].value if user in given else None for user in before.users}
                 if len(figures) == 1 and None not in figures:
-                    given.update(dict.fromkeys(mention.users, given[before.users[0]]))
+                    given.update(dict.fromkeys(whose, given[before.users[0]]))
                     self._used.add(mention)
                     self._roles[mention] = "given"
             self.spans.append(said.span())
@@ -277,23 +280,26 @@ class Allotments:
         "user 6 no guarantee", "all but user 1, who is uncapped": nothing else is wished of them, in their own words.
         """
         start, end = self._own_words(mention)
-        words, behind = self._plain[start:end], [each for each in self._found if each.role == "pronoun"]
-        if any(each.start == end for each in (*self._judged.figures, *behind)):  # "user 3 has no cap, so limit it to …"
+        words = self._plain[start:end]
+        if any(each.start == end for each in self._judged.figures):  # "user 3 has no cap so limit it to …"
             return None
         lifted = frozenset(lifted_in(words))
         if lifted:
             return lifted if lifted <= {*RATES, "all", "ceilings"} else None
         same = (each for each in self._found if {*each.users} == {*mention.users})
         excepted = any(EXCEPTED.search(self._plain, 0, each.start) for each in same)
-        return lifted if excepted and _UNLIMITED.search(words) else None
+        return lifted if excepted and _UNLIMITED.search(self._plain[mention.end : end]) else None
 
     def _own_words(self, mention: Mention) -> Span:
         """Where words stand that are of somebody alone: between the figures and users beside, or behind a comma."""
-        spans = [(each.start, each.end) for each in (*self._judged.figures, *self._found) if each is not mention]
+        others = [each for each in self._found if each is not mention and each.role != "pronoun"]
+        others = [each for each in others if not NOBODY.search(self._plain[each.start : each.end])]  # "keine Garantie"
+        spans = [(each.start, each.end) for each in (*self._judged.figures, *others)]
         start = max([clause_start(self._plain, mention.start), *(end for _, end in spans if end <= mention.start)])
         ends = [first for first, _ in spans if first >= mention.end]
         last = clause_end(self._plain, mention.end)
         aside = _ASIDE.match(self._plain, last) if not self._plain[mention.end : last].strip() else None
+        aside = aside if aside and not self._has_figures(*aside.span()) else None
         return start, min([aside.end() if aside else last, *ends])
 
     def _others_have_a_figure(self, mention: Mention) -> bool:

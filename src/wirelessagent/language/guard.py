@@ -35,7 +35,7 @@ _NAMES_SHOWN = 12
 _FEWEST_WORDS = 3
 """And signs, of a sentence that can be judged."""
 _SAME_WITH = deferred(rf"(?i)^\s*(?:{either('figures', 'kept', 'same_with')})\s*")
-_CLAUSE, _FAITHFUL = 0.4, 0.15
+_CLAUSE, _FAITHFUL = 0.4, 0.2
 """How likely an order what begins with a clause has to be by itself, and how likely it is read as it is meant."""
 
 

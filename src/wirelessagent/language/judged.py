@@ -18,7 +18,7 @@ from wirelessagent.language.numerals import Number, factors
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.request import numbered
 from wirelessagent.language.stated import CARRIERS, EACH_CARRIER, POWER_NOUNS, is_spared, shares_power
-from wirelessagent.language.text import AND, Beside, Phrases, Span, clause_start
+from wirelessagent.language.text import AND, Beside, Phrases, Span, clause_start, is_chinese
 from wirelessagent.language.word_tables import any_word, deferred, either
 
 # The share of those who have a rate or a weight, among all users named and among those of each role.
@@ -37,7 +37,7 @@ _HEADS = {
 _HEAD = any_word("figures", "bounds", "floors_of", "caps_of")
 _UNBOUND = deferred(rf"(?i)\s*(?:$|[^\w\s]|{GIVEN_TO}|{JOINT_WORDS}|(?:{_AS})\s*{_HEAD}(?!\w))")
 _GOES_ON = deferred(rf"(?i)\s*[,)\uff0c]\s*(?:{either('figures', 'users', 'takes')})")
-_JOINED = deferred(rf"(?i)(?:{AND})|[和与跟及]|\(")
+_AGAIN = deferred(rf"(?i){either('figures', 'one', 'says_again')}")
 _ENDED = deferred(rf"(?i)\s*(?:$|[,.;:!?)\uff0c\uff1b。、](?![0-9])|(?:{AND})\b|然后)")
 _CEILINGS = ("max_power_w", "subcarrier_max_power_w")
 BOUNDED = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
@@ -74,7 +74,7 @@ class Judged:
             *runs(plain, [number for number in numbers.weights if number.form != "times"], ITEMS),
         ]
         self.lists = [[item.start for item in each] for each in lists if len(each) > 1]
-        named_at = [(mention.start, mention.end) for mention in everybody_named(look)]
+        named_at = [(mention.start, mention.end) for mention in everybody_named(look.mentions)]
         self._series = list(series(plain, rates, named_at))
         self._said: dict[Mention, Mapping[str, float]] = {}
         self._owners = {item.start: self._owners_of(item.start) for item in (*rates, *numbers.weights)}
@@ -114,7 +114,9 @@ class Judged:
         for place, figure in enumerate(self._look.figures):
             chances = answers(figure.kind, self.view.figure(place))
             before = self._look.figures[place - 1].phrase_end if place else 0
-            means[figure.start] = _as_bounded(self._look.plain, figure, chances, before=before, carriers=carriers)
+            following = self._look.figures[place + 1 : place + 2]
+            next_ = following[0].phrase_start if following else len(self._look.plain)
+            means[figure.start] = _as_bounded(self._look.plain, figure, chances, (before, next_), carriers=carriers)
         for starts in self.lists:
             each = [means[start] for start in starts if start in means]
             if each:
@@ -155,8 +157,8 @@ class Judged:
         for one, other in itertools.pairwise(powers):
             words, its = plain[one.phrase_end : other.phrase_start], means[one.start]
             may_be = means[other.start][max(its, key=lambda role: its[role])] > _PERHAPS
-            alone = _JOINED.search(words) is None and _ENDED.match(plain, other.phrase_end) is not None
-            if one.value == other.value and any(map(str.isalpha, words)) and alone and may_be:
+            again = _AGAIN.search(words) is not None and not speaks_of(words)
+            if one.value == other.value and again and may_be and _ENDED.match(plain, other.phrase_end):
                 yield other.start, one.start
 
     def _has_no_bound(self, figure: Quantity) -> bool:
@@ -193,12 +195,12 @@ class Judged:
 
 
 def _as_bounded(
-    plain: str, figure: Quantity, chances: Mapping[str, float], *, before: int, carriers: bool
+    plain: str, figure: Quantity, chances: Mapping[str, float], beside: Span, *, carriers: bool
 ) -> Mapping[str, float]:
     """How likely a figure has each role, a limit being the one that its bound says: what is "at least" is no ceiling.
 
-    ``before`` is where the figure ahead ends. No power is one of a subcarrier where nothing speaks of ``carriers``, and
-    what is "of the power budget" is no promise.
+    ``beside`` is where the figure ahead ends and the next begins. No power is one of a subcarrier where nothing speaks
+    of ``carriers``, and what is "of the power budget" is no promise.
     """
     if figure.kind == "power" and figure.comparator == "at_least":
         return moved(chances, _CEILINGS, "floor")
@@ -206,24 +208,32 @@ def _as_bounded(
         return moved(chances, tuple(chances), "share")
     if figure.kind == "ratio" and shares_power(plain, figure):
         return moved(chances, ("outage", "reliability"), "share")
-    if figure.kind == "power" and _is_of_a_carrier(plain, figure, before):
+    if figure.kind == "power" and _is_of_a_carrier(plain, figure, beside):
         return moved(chances, tuple(chances), "subcarrier_max_power_w")
+    if figure.kind == "power" and _CARRIER_BEHIND.match(plain, figure.phrase_end):  # which is of the next
+        return moved(chances, ("stale", "subcarrier_max_power_w"), "max_power_w")
     if figure.kind == "power" and not carriers:
         return moved(chances, ("subcarrier_max_power_w",), "max_power_w")
     bound = BOUNDED.get(figure.comparator or "") if figure.kind == "rate" else None
     return chances if bound is None else moved(chances, ("min_rate_bps", "max_rate_bps", "both"), bound)
 
 
-def _is_of_a_carrier(plain: str, figure: Quantity, before: int) -> bool:
-    """Whether a power is said to be one of each subcarrier, behind it or ahead, where no figure ends ``before``.
+def _is_of_a_carrier(plain: str, figure: Quantity, beside: Span) -> bool:
+    """Whether a power is said to be one of each subcarrier, behind it or ahead, between the figures ``beside``.
 
-    A rate of each subcarrier is none, nor what is denied: "not 10 W per subcarrier".
+    A rate of each subcarrier is none, nor what is denied: "not 10 W per subcarrier". In Chinese the words right ahead
+    of the next figure are of that: 14瓦每个子载波最多60毫瓦.
     """
+    before, next_ = beside
     clause = plain[max(before, clause_start(plain, figure.phrase_start)) : figure.phrase_start]
     ahead = _CARRIER_AHEAD.search(clause)
     of_each = ahead is not None and "rate" not in speaks_of(clause[: ahead.start()])
     taken = _CARRIER_BEHIND.match(plain, before) if before else None  # "0.1 W per subcarrier and 10 W in total"
     behind = _CARRIER_BEHIND.match(plain, figure.phrase_end)
+    taken, behind = (
+        None if each and each.end() == end and is_chinese(plain[end - 1]) else each
+        for each, end in ((taken, figure.phrase_start), (behind, next_))
+    )
     return bool((of_each and not taken) or behind) and _DENIED.search(clause) is None
 
 

@@ -45,7 +45,7 @@ _SPACED = (  # "users 1 2 3", and nothing that is counted behind
     rf"(?!\s*(?!{any_word('figures', 'users', 'goes_on')}\b)[A-Za-zμ%×*^/])"
 )
 _SPACED_WORDS = (  # "users one three and four", and no number goes on behind
-    rf"(?<=s ){WORD_NUMBER}(?:\s+{WORD_NUMBER})+(?:\s+{AND}\s+{WORD_NUMBER})?\b"
+    rf"(?:(?<=s )|(?<=utzer )){WORD_NUMBER}(?:\s+{WORD_NUMBER})+(?:\s+{AND}\s+{WORD_NUMBER})?\b"
     rf"(?!\s+(?:{'|'.join(listed('scales'))}|point|and\s+an?\s|coma|y\s+medi|virgule|et\s+demi|komma)\b)"
 )
 _LIST = (
@@ -79,7 +79,8 @@ _ZH_LIST = "[0-9]{3,4}|" + "|".join(
 )
 _ZH = deferred(
     rf"(?<!其他)(?<!其它)(?<!其余)(?:{ZH_NOUN}\s*(?P<after>{_ZH_LIST})(?!\s*[个名位台户兆瓦百千点起样直定边次共切致]|下(?!限))号?)"
-    rf"|(?<![权重乘取为=.0-9月])(?!(?<=重[设是给算])[0-9]{{1,4}}\s*[,\uff0c]|(?<=[第之]){_ZH_NUMBER}\s*[,\uff0c、])(?P<hao>{_ZH_LIST})\s*[号號](?!线|楼|院|机房|站|小区|基站|人|桌|门|馆|店|厅|早|晚)\s*{ZH_NOUN}?"
+    rf"|(?<![权重乘取为=.0-9月])(?!(?:(?<=[设是给算为])|(?<=[是为] ))[0-9]{{1,4}}\s*[,\uff0c]|"
+    rf"(?<=[第之]){_ZH_NUMBER}\s*[,\uff0c、])(?P<hao>{_ZH_LIST})\s*[号號](?!线|楼|院|机房|站|小区|基站|人|桌|门|馆|店|厅|早|晚)\s*{ZH_NOUN}?"
     rf"|(?<!倒数)第\s*(?P<nth>{_ZH_NUMBER})\s*[个位名]\s*{ZH_NOUN}"
 )
 _OTHERS = Phrases(
@@ -108,6 +109,7 @@ BY_PLACE = Phrases(
                 for name in ("odd", "even", "nth", "from_here", "past", "up_to", "before")
             ),
             *(f"(?P<{name}_>{either('figures', 'users', f'{name}_too')})" for name in ("odd", "even")),
+            rf"(?P<all_of>{either('figures', 'users', 'all_of', few=_FEW)})(?!\s*(?:{_UNIT}|{NOUN}))",
             *(
                 rf"(?:{end}\s+(?P<{name}>{_FEW})|\b(?P<{name}_>{_FEW})\s+{end})\s+{NOUN}(?![A-Za-z])|"
                 rf"{end}\s*(?P<{name}__>[0-9]{{1,2}}|[一二两三四五六七八九十])\s*[个位名]\s*{ZH_NOUN}|"
@@ -155,6 +157,10 @@ _LONGEST_RANGE, _NEAR, MOST_USERS, _FAR_OFF = 100, 25, 100, 5
 """How many users a range may have, how near what leaves out stands, and from where on a number behind users that is so
 many times theirs is none."""
 _UP_TO = deferred(rf"(?i)\s*号?(?:{_TO}(?:l')?(?:{_NO}\s*)?|\s*[到至]\s*)")
+COUNTS_OTHERS = deferred(
+    rf"(?i)\s+(?:{any_word('figures', 'grouped', 'carriers', 'groups')}|{any_word('figures', 'times', 'units')}|"
+    r"more|others?|más|otros|autres|weitere)(?!\w)"
+)
 _ITEM = deferred(rf"(?i)[0-9]+|\b{_ORDINAL}\b|\b{WORD_NUMBER}\b|[一二三四五六七八九十]+")
 _AND_BETWEEN = deferred(r"(?i)[a-z和与跟及&/、]")
 _LAST_COMMA = deferred(rf"(?i)\s*[,\uff0c]\s*(?:(?:{AND}|e)\s+)?(?=[^,\uff0c]*$)")
@@ -222,7 +228,8 @@ def _by_place(plain: str, count: int) -> tuple[Mention, ...]:
         number = max(several, default=2)
         first, last, step = {
             "odd": (1, count, 2), "even": (2, count, 2), "nth": (max(number, 2), count, max(number, 2)),
-            "first": (1, number, 1), "last": (count - number + 1, count, 1), "up_to": (1, number, 1),
+            "first": (1, number, 1), "all_of": (1, count if number == count else 0, 1),
+            "last": (count - number + 1, count, 1), "up_to": (1, number, 1),
             "before": (1, number - 1, 1), "past": (number + 1, count, 1), "from": (number, count, 1),
             "from_here": (number, count, 1),
         }[group.rstrip("_")]  # fmt: skip
@@ -268,6 +275,8 @@ def _without_quantity(plain: str, match: re.Match[str], group: str) -> int:
     for (one, _, end), (other, start, _) in itertools.pairwise(parts):  # "4, 6 and 7 to 1, 2 and 5 Mbit/s"
         if other < one and _UP_TO.fullmatch(plain, end, start):
             return end
+    if len(parts) > 1 and COUNTS_OTHERS.match(plain, parts[-1][2]):  # "user 3 and 4 subcarriers per block"
+        return last
     if len(parts) > 1 and parts[-1][0] >= max(MOST_USERS, _FAR_OFF * parts[-2][0]):  # "users 1 and 2, 500"
         return last
     if parts and unit_at(plain, parts[-1][2]) is not None:

@@ -21,6 +21,7 @@ from typing import TypeVar
 from wirelessagent.language.figure_roles import SCALED, Look, View, answers
 from wirelessagent.language.mentions import (
     BY_PLACE,
+    COUNTS_OTHERS,
     GIVEN_TO,
     JOINT,
     JOINT_WORDS,
@@ -36,6 +37,7 @@ from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Measure, Quantity, QuantityKind, measures
 from wirelessagent.language.stated import COUNTED_USERS, FOREIGN_UNIT, idioms, loose_numbers, may_be_a_limit
 from wirelessagent.language.text import (
+    AND,
     USER_NOUN,
     WORD_OR_SIGN,
     Phrases,
@@ -47,7 +49,7 @@ from wirelessagent.language.text import (
     replaced,
 )  # fmt: skip
 from wirelessagent.language.units import unit_at
-from wirelessagent.language.word_tables import deferred, either, words_of
+from wirelessagent.language.word_tables import any_word, deferred, either, words_of
 
 BORROWING: Mapping[str, QuantityKind] = {
     "rate": "rate", "power": "power", "multiple": "rate", "outage": "ratio", "reliability": "ratio",
@@ -196,6 +198,9 @@ _BESIDE = deferred(  # between the figures of users one after the other, "@" for
     rf"(?i)(?=[^@]*@)(?:[\s,;:、\uff0c\uff1b\uff1a/&=→>()\[\]@-]|"
     rf"{GIVEN_TO}|{JOINT_WORDS}|{either('figures', 'users', 'given_with')})*"
 )
+_AND_THE = deferred(rf"(?i)\s*(?:{AND}|al|au|bis)\s*(?:\s(?:{GIVEN_TO}|al|au)\s*)*")  # "al uno y al cuatro"
+_GIVEN_ON = deferred(rf"(?i)\s*(?:{GIVEN_TO}\s*)+(?:l')?")
+_SEVERAL = deferred(rf"(?i)\b{any_word('figures', 'users', 'several')}\s*$")
 _BOTH = deferred(rf"(?i)(?=.*[^\W\d_])(?:{JOINT.pattern.removeprefix('(?i)')})")  # by more than a comma
 _TO_SOMEBODY = deferred(rf"(?i)\s*(?:{GIVEN_TO}\s*)+{USER_NOUN}")
 _WITH_A_JOINT = deferred(rf"(?i)(?=\s*\S)(?:{LISTED.pattern.removeprefix('(?i)')})")
@@ -274,7 +279,7 @@ def _chances(first: Look, view: View) -> _Roles:
         number: answers("number", view.number(number, first.bound(number))) for number in (*first.loose, *first.ones)
     }
     likely_users = [n for n in first.loose if chances[n]["user"] > _LIKELY]
-    spans = [(each.start, each.end) for each in (*everybody_named(first), *likely_users)]
+    spans = [(each.start, each.end) for each in (*everybody_named(first.mentions), *likely_users)]
     for each in series(plain, [n for n in first.loose if n not in likely_users and n.form != "times"], spans):
         if len(each) > 1:
             chances |= dict.fromkeys(each, jointly([chances[n] for n in each]))
@@ -298,14 +303,16 @@ def _users_of(
     named = [each for each in first.mentions if each.role == "named"]
     listed += [n for n in others for each in named if _BOTH.fullmatch(first.plain, each.end, n.start)]
     able = [*plausible, *(n for n in others if n in listed or _is_surely_a_user(first, n, chances))]
+    together = {len(each.users) for each in named if len(each.users) > 1}  # "user 3 and user 7, the two …"
+    able = [n for n in able if n.value not in together or not _SEVERAL.search(first.plain, 0, n.start)]
     read = [*first.figures, *first.loose, *first.mentions]
     alone = ones(first.plain, [*taken, *((each.start, each.end) for each in read)]) if able else ()
     return _users(first.plain, able, [number for number in alone if number.value == 1], named, chances)
 
 
-def everybody_named(look: Look) -> list[Mention]:
+def everybody_named(found: Sequence[Mention]) -> list[Mention]:
     """Users who are named, and the others beside them."""
-    return [mention for mention in look.mentions if mention.role in ("named", "others")]
+    return [mention for mention in found if mention.role in ("named", "others")]
 
 
 def _without_known(plain: str, strangers: Sequence[Span]) -> list[Span]:
@@ -473,16 +480,21 @@ def _users(
         and n.form != "times"
         and COUNTED_USERS.match(plain, n.start) is None
         and FOREIGN_UNIT.match(plain, n.end) is None
+        and COUNTS_OTHERS.match(plain, n.end) is None
     ]
+    given = [n for n in able if (said := _GIVEN_ON.match(plain, n.end))  # "user 2 and 1 for user 3"
+             and any(n.end < mention.start <= said.end() for mention in named)]  # fmt: skip
     found = list[Number]()
     for each in runs(plain, sorted([*able, *singles, *named], key=lambda item: item.start), JOINT):
         own = [item for item in each if isinstance(item, Number)]
         judged = [n for n in own if n not in singles]
         apart = len({n.value for n in own}) == len(own)  # not "w = [2, 1, 1]"
         certain = len(own) == len(judged) and all(chances[n]["user"] > _CERTAIN_OF_A_USER for n in own)
-        beside = any(_BOTH.fullmatch(plain, one.end, other.start) for one, other in itertools.pairwise(each)
-                     if isinstance(one, Mention) != isinstance(other, Mention))  # fmt: skip
+        pairs = [(one, other) for one, other in itertools.pairwise(each) if isinstance(one, Mention)]
+        pairs = [(one, other) for one, other in pairs if isinstance(other, Number) and other not in (*singles, *given)]
+        beside = any(_BOTH.fullmatch(plain, one.end, other.start) for one, other in pairs)
+        called = [other for one, other in pairs if _AND_THE.fullmatch(plain, one.end, other.start)]
         sure = beside or any(chances[n]["user"] > _SURE_OF_A_USER for n in judged)
         if sure and (apart or certain) and _WEIGHTS.search(plain, 0, each[0].start) is None:
-            found += [n for n in own if n in singles or chances[n]["user"] > _ONE_OF_A_LIST]
+            found += [n for n in own if n in singles or chances[n]["user"] > _ONE_OF_A_LIST or n in called]
     return found

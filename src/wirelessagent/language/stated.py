@@ -193,6 +193,7 @@ EACH_CARRIER = rf"(?:{either('figures', 'shared', 'per')})\s*子?(?:{either('fig
 _PER_CARRIER = Beside(
     deferred(rf"(?i){EACH_CARRIER}[^,;.\uff0c。0-9]{{0,16}}$"), deferred(rf"(?i)\s*(?:\w+\s+)?{EACH_CARRIER}")
 )
+_BUDGETS = deferred(r"(?:功率|预算)的\s*$")
 _IS_SHARED = deferred(rf"(?i)\b(?:{_BUDGET})\b|功率|预算")
 _UNUSED = deferred(rf"(?i)\s*(?:{either('figures', 'shared', 'unused')})")
 
@@ -201,7 +202,7 @@ def shares_power(plain: str, figure: Quantity) -> bool:
     """Whether a share is said to be one of the power: "90 % of the power budget", not "outage 5 %, power 10 W"."""
     ahead = plain[clause_start(plain, figure.phrase_start) : figure.phrase_start]
     promises = any(name == "outage_probability" for _, name in named_in(ahead))
-    return not promises and _OF_THE_BUDGET.match(plain, figure.phrase_end) is not None
+    return not promises and (_OF_THE_BUDGET.match(plain, figure.phrase_end) or _BUDGETS.search(ahead)) is not None
 
 
 def is_spared(plain: str, figure: Quantity) -> bool:
