@@ -21,6 +21,8 @@ NAMES = tuple(f"user {number}" for number in range(1, 9))
         ("no more than fifty milli what's on a subcarrier", {"subcarrier_max_power_w": 0.05}),
         ("highest some rate and keep user for under one and a half megabits", {"max_rate_bps": {"4": 1.5e6}}),
         ("max min and leave out user ate", {"leave_out": ("8",)}),
+        ("greatest total throughput and user to capped at one megabit", {"max_rate_bps": {"2": 1e6}}),
+        ("lowest transmit power that still gives user for a megabit", {"min_rate_bps": {"4": 1e6}}),
         ("maximise the sum with eighteen watts and drop user won", {"max_power_w": 18.0, "leave_out": ("1",)}),
         ("user for needs too megabits and keep the power low", {"min_rate_bps": {"4": 2e6}}),
         ("users won threw four get five hundred kay each", {"min_rate_bps": dict.fromkeys("1234", 5e5)}),

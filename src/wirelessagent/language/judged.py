@@ -210,7 +210,10 @@ def _as_bounded(
         return moved(chances, ("outage", "reliability"), "share")
     if figure.kind == "power" and _is_of_a_carrier(plain, figure, beside):
         return moved(chances, tuple(chances), "subcarrier_max_power_w")
-    if figure.kind == "power" and _CARRIER_BEHIND.match(plain, figure.phrase_end):  # which is of the next
+    next_of_carriers = is_chinese(plain[beside[1] - 1]) and _CARRIER_BEHIND.fullmatch(
+        plain, figure.phrase_end, beside[1]
+    )
+    if figure.kind == "power" and next_of_carriers:
         return moved(chances, ("stale", "subcarrier_max_power_w"), "max_power_w")
     if figure.kind == "power" and not carriers:
         return moved(chances, ("subcarrier_max_power_w",), "max_power_w")
