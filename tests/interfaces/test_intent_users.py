@@ -52,7 +52,11 @@ STATED: list[tuple[str, dict[str, Any]]] = [
      {"min_rate_bps": {"2": 1e6}, "max_rate_bps": {"3": 2e6}}),
     ("l'utilisateur 6 au moins 800 kbit/s, l'utilisateur 1 ne doit pas dépasser le triple de l'utilisateur 6",
      {"min_rate_bps": {"6": 8e5}, "max_rate_bps": {"1": 2.4e6}}),
+    ("2 Mbit/s for user 2, no guarantee for user 5, least power", {"min_rate_bps": {"2": 2e6}}),
+    ("60毫瓦每个子载波", {"subcarrier_max_power_w": 0.06}), ("只服务用户一二到四号", {"users": ("1", "2", "3", "4")}),
+    ("the others 500 kbit/s, user 3 as well", {"min_rate_bps": {"all": 5e5, "3": 5e5}}),
     # whom an "and" joins, and what it only counts
+    ("users 3 and 4 more than 1 Mbit/s", {"min_rate_bps": {"3": 1e6, "4": 1e6}}),
     ("at least 2 Mbit/s for user 3 and 4 subcarriers per block",
      {"min_rate_bps": {"3": 2e6}, "resource_block_group_size": 4.0}),
     ("tope de dos megas al uno y al cuatro", {"max_rate_bps": {"1": 2e6, "4": 2e6}}),

@@ -7,6 +7,7 @@ about, and so are two figures of one thing, unless the words between take the fi
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -25,7 +26,7 @@ from wirelessagent.language.mentions import (
     Role,
 )
 from wirelessagent.language.moods import lifted_in, may_be_lifted
-from wirelessagent.language.number_roles import everybody_named
+from wirelessagent.language.number_roles import GIVEN_ON, everybody_named
 from wirelessagent.language.numerals import Number, numbers
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.stated import Doubt, Multiple, Reading
@@ -122,10 +123,11 @@ class Allotments:
     def _assign(self, mention: Mention) -> str:
         """Note what somebody is there for, which is given back."""
         role, meant = self._likeliest(mention), self._target(mention)
-        if self._is_too(mention):  # "le 6 non plus"
+        if self._too(mention):  # "le 6 non plus"
             before = [each for each in self._found if each.role == "named" and each.end <= mention.start]
             alone = "given" if len(mention.users) == 1 else role  # "without users 3 and 4, too"
             role = self._roles.get(before[-1], "given") if before else alone
+            self._lifted[mention] = self._lifted.get(before[-1], frozenset()) if before else frozenset()
         if role == "given" or not meant.users:
             return role
         self._roles[mention] = role
@@ -191,45 +193,55 @@ class Allotments:
 
     def _give_multiples(self) -> None:
         """So many times the one rate of somebody else; without one, nobody knows what is meant."""
+        known = list[Multiple]()
         for mention, multiple in self._multiplied.items():
             of = [name for name in RATES if multiple.user in self._given[name]]
-            text = self._text[multiple.start : multiple.end]
-            if len(of) == 1:
-                value = self._given[of[0]][multiple.user].value * multiple.times
-                name = BOUNDED.get(multiple.said.comparator or "", of[0])
-                self._given[name].update(dict.fromkeys(mention.users, _Given(value=value, text=text)))
-                self._used |= {mention, *(each for each in self._found if each.start <= multiple.whose < each.end)}
-        known = [multiple for mention, multiple in self._multiplied.items() if mention in self._used]
+            if len(of) != 1:
+                continue
+            known.append(multiple)
+            value = self._given[of[0]][multiple.user].value * multiple.times
+            own = _Given(value=value, text=self._text[multiple.start : multiple.end])
+            name = BOUNDED.get(multiple.said.comparator or "", of[0])
+            for user in mention.users:
+                first = self._given[name].setdefault(user, own)
+                if first.value != value:
+                    self._conflicts.append(Doubt(key="conflict", names={"one": first.text, "other": own.text}))
+            self._used |= {mention, *(each for each in self._found if each.start <= multiple.whose < each.end)}
         for multiple in self._reading.multiples:
             if multiple not in known:
                 self._reading.doubt("calculated", text=self._text[multiple.start : multiple.end])
 
     def _give_alike(self) -> None:
-        """The figures of whoever was named before for whom the same is said: "user 5 the same", "lo mismo al 4"."""
+        """The figures of whoever was named before for whom, or for the others, the same is said.
+
+        "user 5 the same", "lo mismo al 4", "the others too".
+        """
         for before, mention in itertools.pairwise(everybody_named(self._found)):
-            ahead = _GIVEN_ALIKE.ahead.search(self._plain, before.end, mention.start)
-            said = ahead or (self._is_too(mention) and _GIVEN_ALIKE.behind.match(self._plain, mention.end))
-            whose = mention.users or (EVERYBODY,)
+            said = _GIVEN_ALIKE.ahead.search(self._plain, before.end, mention.start) or self._too(mention)
+            ahead, whose = before.users or (EVERYBODY,), mention.users or (EVERYBODY,)
             own = any(user in given for given in self._given.values() for user in whose)
-            if not said or own or mention in self._used:
+            if said is None or own or mention in self._used:
                 continue
-            rated = any(user in self._given[name] for name in RATES for user in before.users)
-            for given in [self._given[name] for name in (RATES if rated else FIGURES_OF_USERS)]:
-                figures = {given[user].value if user in given else None for user in before.users}
+            rated = any(user in self._given[name] for name in RATES for user in ahead)
+            for name in RATES if rated else FIGURES_OF_USERS:
+                given = self._given[name]
+                figures = {given[user].value if user in given else None for user in ahead}
                 if len(figures) == 1 and None not in figures:
-                    given.update(dict.fromkeys(whose, given[before.users[0]]))
+                    given.update(dict.fromkeys(whose, given[ahead[0]]))
+                    self._of_others |= {name} if mention.role == "others" else set()
                     self._used.add(mention)
                     self._roles[mention] = "given"
             self.spans.append(said.span())
 
-    def _is_too(self, mention: Mention) -> bool:
-        """Whether the same is said of somebody as of whoever stands ahead: nothing but a joint stands between."""
-        plain = self._plain
+    def _too(self, mention: Mention) -> re.Match[str] | None:
+        """The words that the same is said of somebody as of whoever stands ahead, with nothing but a joint between."""
+        plain, said = self._plain, _GIVEN_ALIKE.behind.match(self._plain, mention.end)
+        if said is None:
+            return None
         ends = [number.end for number in numbers(plain)] + [figure.phrase_end for figure in self._judged.figures]
         ends += [each.end for each in self._found if each is not mention]
         last = max((end for end in ends if end <= mention.start), default=0)
-        joined = _ONLY_JOINS.fullmatch(plain, last, mention.start) is not None
-        return joined and _GIVEN_ALIKE.behind.match(plain, mention.end) is not None
+        return said if _ONLY_JOINS.fullmatch(plain, last, mention.start) else None
 
     def _write_out_the_others(self) -> None:
         """A ceiling of the others becomes one of each of them, where users are named who have none."""
@@ -280,15 +292,15 @@ class Allotments:
         "user 6 no guarantee", "all but user 1, who is uncapped": nothing else is wished of them, in their own words.
         """
         start, end = self._own_words(mention)
-        words = self._plain[start:end]
-        if any(each.start == end for each in self._judged.figures):  # "user 3 has no cap so limit it to …"
-            return None
-        lifted = frozenset(lifted_in(words))
+        for figure in self._judged.figures:  # "user 3 has no cap so limit it to …", "2 Mbit/s for user 2, no cap"
+            if figure.start == end or GIVEN_ON.fullmatch(self._plain, figure.phrase_end, mention.start):
+                return None
+        lifted = frozenset(lifted_in(self._plain[start:end]))
         if lifted:
             return lifted if lifted <= {*RATES, "all", "ceilings"} else None
         same = (each for each in self._found if {*each.users} == {*mention.users})
         excepted = any(EXCEPTED.search(self._plain, 0, each.start) for each in same)
-        return lifted if excepted and _UNLIMITED.search(self._plain[mention.end : end]) else None
+        return frozenset() if excepted and _UNLIMITED.search(self._plain[mention.end : end]) else None
 
     def _own_words(self, mention: Mention) -> Span:
         """Where words stand that are of somebody alone: between the figures and users beside, or behind a comma."""
@@ -299,7 +311,7 @@ class Allotments:
         ends = [first for first, _ in spans if first >= mention.end]
         last = clause_end(self._plain, mention.end)
         aside = _ASIDE.match(self._plain, last) if not self._plain[mention.end : last].strip() else None
-        aside = aside if aside and not self._has_figures(*aside.span()) else None
+        aside = None if aside and any(last <= first < aside.end() for first in ends) else aside
         return start, min([aside.end() if aside else last, *ends])
 
     def _others_have_a_figure(self, mention: Mention) -> bool:

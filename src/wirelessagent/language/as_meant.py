@@ -148,14 +148,13 @@ def hesitating(plain: str) -> Iterator[Span]:
     >>> list(hesitating("30 W, uh, 32")), list(hesitating("30 W, uh, 30"))
     ([(6, 9)], [])
     """
-    found, ends = list(numbers(plain)), dict[int, Number]()
-    for number in found:
+    at, ends = {number.start: number for number in numbers(plain)}, dict[int, Number]()
+    for number in at.values():
         unit = unit_at(plain, number.end)
         ends[unit.end if unit is not None else number.end] = number
     for match in _HESITATES.finditer(plain):
-        ahead = ends.get(len(plain[: match.start()].rstrip(" ,.\uff0c…")))
-        again = any(each.start == match.start("item") and ahead and each.value == ahead.value for each in found)
-        if ahead is not None and not again:
+        ahead, item = ends.get(len(plain[: match.start()].rstrip(" ,.\uff0c…"))), at.get(match.start("item"))
+        if ahead is not None and (item is None or item.value != ahead.value):
             yield match.span()
 
 

@@ -77,7 +77,9 @@ def doubted(text: str, context: Context | None, intent: Intent) -> Span | None:
     """
     if intent.recogniser == READ_IN_A_TALK:
         return None
-    sentence = read_once(_SAME_WITH.sub(lambda said: " " * len(said[0]), text), own_words(), context)
+    holds = context is not None and context.objective is not None
+    said = _SAME_WITH.sub(lambda same: " " * len(same[0]), text) if holds else text
+    sentence = read_once(said, own_words(), context)
     if len(sentence.frame.tokens) < _FEWEST_WORDS or _only_lifts(sentence.plain):
         return None
     turn = next(sentence.turns_unread(), None)

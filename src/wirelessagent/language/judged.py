@@ -115,7 +115,7 @@ class Judged:
             chances = answers(figure.kind, self.view.figure(place))
             before = self._look.figures[place - 1].phrase_end if place else 0
             following = self._look.figures[place + 1 : place + 2]
-            next_ = following[0].phrase_start if following else len(self._look.plain)
+            next_ = following[0].phrase_start if following else len(self._look.plain) + 1
             means[figure.start] = _as_bounded(self._look.plain, figure, chances, (before, next_), carriers=carriers)
         for starts in self.lists:
             each = [means[start] for start in starts if start in means]
@@ -144,7 +144,9 @@ class Judged:
         powers = [each.start for each in self._look.figures if each.kind == "power" and each.start not in again]
         powers = powers[:_MOST_POWERS]
         means |= dict(zip(powers, _each_once([means[start] for start in powers]), strict=True))
-        return means | {start: means[first] for start, first in again.items()}
+        for start, first in again.items():
+            means[start] = means[first]
+        return means
 
     def _is_an_exception(self, start: int, end: int) -> bool:
         """Whether a figure at the end is of somebody excepted: "at most 2 Mbit/s, but for user 2, who is at 1"."""
@@ -210,10 +212,8 @@ def _as_bounded(
         return moved(chances, ("outage", "reliability"), "share")
     if figure.kind == "power" and _is_of_a_carrier(plain, figure, beside):
         return moved(chances, tuple(chances), "subcarrier_max_power_w")
-    next_of_carriers = is_chinese(plain[beside[1] - 1]) and _CARRIER_BEHIND.fullmatch(
-        plain, figure.phrase_end, beside[1]
-    )
-    if figure.kind == "power" and next_of_carriers:
+    behind = _CARRIER_BEHIND.match(plain, figure.phrase_end) if figure.kind == "power" else None
+    if behind and behind.end() == beside[1] and is_chinese(plain[beside[1] - 1]):  # which is of the next
         return moved(chances, ("stale", "subcarrier_max_power_w"), "max_power_w")
     if figure.kind == "power" and not carriers:
         return moved(chances, ("subcarrier_max_power_w",), "max_power_w")

@@ -65,7 +65,7 @@ _NAMED = Phrases(
     rf"#\s?(?P<hash>[0-9]{{1,4}}(?:{_AND}#?\s?[0-9]{{1,4}})*)"
     rf"|(?<![A-Za-z])(?:{_NUMBER_NOUN}|no\.)\s+(?P<number>{_LIST})"
     rf"|(?<![A-Za-z])(?P<ordinal>{_ORDINAL})\s+{NOUN}(?![A-Za-z])"
-    rf"|(?:{_ONE_USER})(?P<one>uno?)(?!\w|\s+(?:por|pour|de|virgule|coma|et demi|y medio)\b|\s*%)"
+    rf"|(?:{_ONE_USER})(?P<one>uno?)(?!\w|\s+(?:por|pour|de|virgule|coma|punto|point|et demi|y medio)\b|\s*%)"
 )
 _ZH_NUMBER = r"(?:[0-9]{1,4}|[一二三四五六七八九十]{1,3})"
 ZH_NOUN = r"(?:用户|終端|终端|用戶|UE|ue|客户|客戶|订户|设备|手机|节点)"
@@ -96,6 +96,12 @@ _FEW = rf"(?:[0-9]{{1,2}}|{WORD_NUMBER}|beiden)"
 _ON = either("figures", "users", "from_on")
 _ENDS = {name: f"(?:{either('figures', 'users', name)})" for name in ("first", "last")}
 _UNIT = r"%|(?:[kmg]|mega|kilo|giga)?(?:bit|bps|b/s)|[km]\b|m?w\b|(?:milli)?watt|db|megs?\b|兆|瓦"
+_COUNTS_OTHERS = (
+    rf"\s+(?:{any_word('figures', 'grouped', 'carriers', 'groups')}|{any_word('figures', 'times', 'units')}|"
+    rf"{either('figures', 'users', 'more')})(?!\w)"
+)
+COUNTS_OTHERS = deferred(f"(?i){_COUNTS_OTHERS}")
+"""What is behind a number that counts something else: "user 3 and 4 subcarriers per block"."""
 PLACED = {
     "noun": NOUN, "ordinal": _ORDINAL,
     "digits": rf"[0-9]{{1,3}}(?![0-9.,]*[0-9]|\s?(?:{_UNIT}))",
@@ -109,7 +115,7 @@ BY_PLACE = Phrases(
                 for name in ("odd", "even", "nth", "from_here", "past", "up_to", "before")
             ),
             *(f"(?P<{name}_>{either('figures', 'users', f'{name}_too')})" for name in ("odd", "even")),
-            rf"(?P<all_of>{either('figures', 'users', 'all_of', few=_FEW)})(?!\s*(?:{_UNIT}|{NOUN}))",
+            rf"(?P<all_of>{either('figures', 'users', 'all_of', few=_FEW)})(?!\s*(?:{_UNIT}|{NOUN})|{_COUNTS_OTHERS})",
             *(
                 rf"(?:{end}\s+(?P<{name}>{_FEW})|\b(?P<{name}_>{_FEW})\s+{end})\s+{NOUN}(?![A-Za-z])|"
                 rf"{end}\s*(?P<{name}__>[0-9]{{1,2}}|[一二两三四五六七八九十])\s*[个位名]\s*{ZH_NOUN}|"
@@ -157,10 +163,6 @@ _LONGEST_RANGE, _NEAR, MOST_USERS, _FAR_OFF = 100, 25, 100, 5
 """How many users a range may have, how near what leaves out stands, and from where on a number behind users that is so
 many times theirs is none."""
 _UP_TO = deferred(rf"(?i)\s*号?(?:{_TO}(?:l')?(?:{_NO}\s*)?|\s*[到至]\s*)")
-COUNTS_OTHERS = deferred(
-    rf"(?i)\s+(?:{any_word('figures', 'grouped', 'carriers', 'groups')}|{any_word('figures', 'times', 'units')}|"
-    r"more|others?|más|otros|autres|weitere)(?!\w)"
-)
 _ITEM = deferred(rf"(?i)[0-9]+|\b{_ORDINAL}\b|\b{WORD_NUMBER}\b|[一二三四五六七八九十]+")
 _AND_BETWEEN = deferred(r"(?i)[a-z和与跟及&/、]")
 _LAST_COMMA = deferred(rf"(?i)\s*[,\uff0c]\s*(?:(?:{AND}|e)\s+)?(?=[^,\uff0c]*$)")
@@ -299,7 +301,8 @@ def listed_users(text: str) -> tuple[str, ...]:
         word = part.group()
         user = _number(word)
         if user is None and is_chinese(word[0]) and "十" not in word:  # 一二七号
-            users.extend(int(chinese_value(digit) or 0) for digit in word)
+            *more, user = (int(chinese_value(digit) or 0) for digit in word)
+            users.extend(more)
         if user is None:
             continue
         spans = users and _UP_TO.fullmatch(text, end, part.start())

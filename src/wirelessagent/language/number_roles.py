@@ -35,7 +35,7 @@ from wirelessagent.language.moods import named_in
 from wirelessagent.language.number_words import listed
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Measure, Quantity, QuantityKind, measures
-from wirelessagent.language.stated import COUNTED_USERS, FOREIGN_UNIT, idioms, loose_numbers, may_be_a_limit
+from wirelessagent.language.stated import COUNTED_USERS, FOREIGN_UNIT, OF_WEIGHTS, idioms, loose_numbers, may_be_a_limit
 from wirelessagent.language.text import (
     AND,
     USER_NOUN,
@@ -198,8 +198,8 @@ _BESIDE = deferred(  # between the figures of users one after the other, "@" for
     rf"(?i)(?=[^@]*@)(?:[\s,;:、\uff0c\uff1b\uff1a/&=→>()\[\]@-]|"
     rf"{GIVEN_TO}|{JOINT_WORDS}|{either('figures', 'users', 'given_with')})*"
 )
-_AND_THE = deferred(rf"(?i)\s*(?:{AND}|al|au|bis)\s*(?:\s(?:{GIVEN_TO}|al|au)\s*)*")  # "al uno y al cuatro"
-_GIVEN_ON = deferred(rf"(?i)\s*(?:{GIVEN_TO}\s*)+(?:l')?")
+_AND_THE = deferred(rf"(?i)\s*(?:{AND}|al|au|bis)\s*(?:\s{GIVEN_TO}\s*)*")  # "al uno y al cuatro"
+GIVEN_ON = deferred(rf"(?i)\s*(?:{GIVEN_TO}\s*)+(?:l')?")
 _SEVERAL = deferred(rf"(?i)\b{any_word('figures', 'users', 'several')}\s*$")
 _BOTH = deferred(rf"(?i)(?=.*[^\W\d_])(?:{JOINT.pattern.removeprefix('(?i)')})")  # by more than a comma
 _TO_SOMEBODY = deferred(rf"(?i)\s*(?:{GIVEN_TO}\s*)+{USER_NOUN}")
@@ -208,7 +208,6 @@ _WEIGHTS = deferred(  # what follows are weights, whatever else they may look li
     rf"(?i)(?:(?:{either('figures', 'users', 'weights')})(?:\s+(?:of|are|is|being|de|von|sind))?|"
     r"权重(?:分别|依次|各)?[是为]?)\s*[:=]?\s*$"
 )
-_OF_WEIGHTS = Phrases(either("figures", "users", "weighs"))
 _NEAR_BY, _ENDS = 40, deferred(r"[0-9.;!?。；]")  # of a list and its users, and what stands between neither
 _MOST_BARE_USERS = 100  # who is called by a number alone has a small one
 _SURE_OF_A_USER, _SURE_OF_A_WEIGHT, _SURE_OF_NOTHING, _SURE_OF_A_FIGURE, _SURE_OF_ONE = 0.6, 0.6, 0.6, 0.6, 0.5
@@ -283,7 +282,7 @@ def _chances(first: Look, view: View) -> _Roles:
     for each in series(plain, [n for n in first.loose if n not in likely_users and n.form != "times"], spans):
         if len(each) > 1:
             chances |= dict.fromkeys(each, jointly([chances[n] for n in each]))
-    if _OF_WEIGHTS.search(plain) is None:  # what doubles there is a rate that was said before
+    if OF_WEIGHTS.search(plain) is None:  # what doubles there is a rate that was said before
         first_rate = min((figure.end for figure in first.figures if figure.kind == "rate"), default=len(plain))
         doubles = [n for n in chances if n.form == "times" and n.start >= first_rate]
         for number in doubles:  # "anderthalb für Nutzer 3" may be a rate
@@ -482,8 +481,7 @@ def _users(
         and FOREIGN_UNIT.match(plain, n.end) is None
         and COUNTS_OTHERS.match(plain, n.end) is None
     ]
-    given = [n for n in able if (said := _GIVEN_ON.match(plain, n.end))  # "user 2 and 1 for user 3"
-             and any(n.end < mention.start <= said.end() for mention in named)]  # fmt: skip
+    given = [n for n in able if any(GIVEN_ON.fullmatch(plain, n.end, mention.start) for mention in named)]
     found = list[Number]()
     for each in runs(plain, sorted([*able, *singles, *named], key=lambda item: item.start), JOINT):
         own = [item for item in each if isinstance(item, Number)]

@@ -171,7 +171,7 @@ _SOME_USERS, _ONE_OF = (Phrases(either("figures", "users", name, **PLACED)) for 
 _OF_OURS = r"(?:\w+\s+){0,3}?(?:power|watts?|wattage|rates?|speeds?|throughput|bandwidth|budget|limit)\b"
 _HALVED = Phrases(
     either("figures", "one", "halved", ours=_OF_OURS),
-    marks="half halve third quarter doub doppel triple twice dupli dobl 减半 一半 翻倍",
+    marks="half halve third quarter doub dopp triple twice dupli dobl 减半 一半 翻倍",
 )
 _OTHERS_HALVED = Phrases(
     r"(?:其余|其他|别人|剩下|剩余|旁人|另外)[^,\uff0c。0-9]{0,5}(?:一半|减半|翻倍|双倍|加倍)",
@@ -237,7 +237,7 @@ _GROUPED = Beside(
 )
 
 
-_OF_WEIGHTS = Phrases(either("figures", "users", "weighs"))
+OF_WEIGHTS = Phrases(either("figures", "users", "weighs"))
 
 
 class Multiple(NamedTuple):
@@ -370,7 +370,9 @@ def take_blocks(reading: Reading) -> None:
 def take_multiples(reading: Reading) -> None:
     """What is so many times another user's rate, and no weight: "user 2 half as much as user 1", 用户8是用户1的三倍."""
     plain = reading.plain
-    for factor in factors(plain) if _OF_WEIGHTS.search(plain) is None else ():
+    if OF_WEIGHTS.search(plain):
+        return
+    for factor in factors(plain):
         said = OF_SOMEBODY.behind.match(plain, factor.end) or OF_SOMEBODY.ahead.search(plain, 0, factor.start)
         users = listed_users(said["one"]) if said is not None else ()
         if said is not None and len(users) == 1 and unit_at(plain, said.end("one")) is None:
@@ -414,6 +416,8 @@ def doubt_parts(reading: Reading, allotted: Sequence[Span]) -> None:
         match = pattern.search(reading.plain)
         if match is None or (pattern is _HALVED and overlaps(match.span(), settled)):
             continue
+        if pattern is BY_PLACE and any(is_within(span, match.span()) for span in reading.counted):
+            continue  # "users 1, 2 and 3: all three"
         if pattern is not _ONE_OF and any(is_within(match.span(), span) for span in allotted):
             continue  # "odd-numbered users"
         reading.doubt(key, text=reading.text[slice(*match.span())])
