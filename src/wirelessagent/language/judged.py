@@ -27,7 +27,7 @@ _OWNS_ELSE = 0.02
 _AS = either("figures", "bounds", "as_bounds")
 _HEADS = {
     bound: Beside(
-        deferred(rf"(?i){said}[^.:;\uff1a。；]{{0,20}}[:\uff1a]\s*(?:[^\s.;]*\s){{0,4}}[^\s.;0-9]*$"),
+        deferred(rf"(?i){said}[^.:;\uff1a。；]{{0,20}}[:\uff1a]\s*(?:[^\s.;]*\s){{0,4}}(?:[0-9]+号|[^\s.;0-9])*$"),
         deferred(rf"(?i)\s*(?:{_AS})\s*{said}(?!\w)"),
     )
     for bound, name in (("min_rate_bps", "floors_of"), ("max_rate_bps", "caps_of"))

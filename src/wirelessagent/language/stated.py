@@ -195,7 +195,9 @@ _PER_CARRIER = Beside(
 )
 _BUDGETS = deferred(r"(?:功率|预算)的\s*$")
 _IS_SHARED = deferred(rf"(?i)\b(?:{_BUDGET})\b|功率|预算")
-_UNUSED = deferred(rf"(?i)\s*(?:{either('figures', 'shared', 'unused')})")
+_UNUSED = deferred(
+    rf"(?i)\s*(?:(?:{either('figures', 'shared', 'stays')})\s+)?(?:{either('figures', 'shared', 'unused')})"
+)
 
 
 def shares_power(plain: str, figure: Quantity) -> bool:
@@ -208,7 +210,9 @@ def shares_power(plain: str, figure: Quantity) -> bool:
 def is_spared(plain: str, figure: Quantity) -> bool:
     """Whether a share of the budget is said to be left unused: 预算留两成不动."""
     ahead = plain[clause_start(plain, figure.phrase_start) : figure.phrase_start]
-    return _UNUSED.match(plain, figure.phrase_end) is not None and _IS_SHARED.search(ahead) is not None
+    end = _SHARED.widened(plain, (figure.phrase_start, figure.phrase_end))[1]
+    shared = end > figure.phrase_end or _IS_SHARED.search(ahead) is not None
+    return shared and _UNUSED.match(plain, end) is not None
 
 
 _TOGETHER: dict[str, int] = {
