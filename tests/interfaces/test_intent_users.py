@@ -82,6 +82,7 @@ STATED: list[tuple[str, dict[str, Any]]] = [
     ("限速名单：5号、6号两位用户各1.6 Mbps", {"max_rate_bps": {"5": 1.6e6, "6": 1.6e6}}),
     # figures said once more
     ("die schaltung braucht fünf watt glaub ich doch ja fünf watt", {"circuit_power_w": 5.0}),
+    ("circuits 5 W and yes, transmit 5 W", {"circuit_power_w": 5.0, "max_power_w": 5.0}),
     ("circuit 10 W (10 W transmit power)", {"circuit_power_w": 10.0, "max_power_w": 10.0}),
     # weights
     ("weight 2 for user 1 and 0.5 for user 4", {"weights": {"1": 2.0, "4": 0.5}}),

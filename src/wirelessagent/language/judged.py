@@ -37,7 +37,7 @@ _HEADS = {
 _HEAD = any_word("figures", "bounds", "floors_of", "caps_of")
 _UNBOUND = deferred(rf"(?i)\s*(?:$|[^\w\s]|{GIVEN_TO}|{JOINT_WORDS}|(?:{_AS})\s*{_HEAD}(?!\w))")
 _GOES_ON = deferred(rf"(?i)\s*[,)\uff0c]\s*(?:{either('figures', 'users', 'takes')})")
-_AGAIN = deferred(rf"(?i){either('figures', 'one', 'says_again')}")
+_AGAIN = deferred(rf"(?i)(?:{either('figures', 'one', 'says_again')})\W*$")
 _ENDED = deferred(rf"(?i)\s*(?:$|[,.;:!?)\uff0c\uff1b。、](?![0-9])|(?:{AND})\b|然后)")
 _CEILINGS = ("max_power_w", "subcarrier_max_power_w")
 BOUNDED = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
@@ -159,7 +159,7 @@ class Judged:
         for one, other in itertools.pairwise(powers):
             words, its = plain[one.phrase_end : other.phrase_start], means[one.start]
             may_be = means[other.start][max(its, key=lambda role: its[role])] > _PERHAPS
-            again = _AGAIN.search(words) is not None and not speaks_of(words)
+            again = _AGAIN.search(words) is not None and not speaks_of(words)  # not "yes, transmit 5 W"
             if one.value == other.value and again and may_be and _ENDED.match(plain, other.phrase_end):
                 yield other.start, one.start
 
