@@ -79,9 +79,9 @@ _LAST_WORD = deferred(  # "10 W, no more", "10 kbit/s, no less and no more"
     rf"(?i),?\s*(?:{_LAST})(?=\s*(?:$|[.,;:!?)\uff0c。\uff1b、]|(?:{AND}|{_POLITE})\b))"
 )
 _SHORTENED = deferred(r"(?i)\b(?:m[aá]x|m[ií]n|mind|höchst)\.")
-_LOOSE = deferred(
+_LOOSE = deferred(  # "maximum rate at 1 Mbit/s minimum" wishes first and bounds after
     r"(?i)(?:(?:al|au)\s+)?(?:m[aá]x|m[ií]n)(?:im(?:um|o|al))?\b"
-)  # "maximum rate at 1 Mbit/s minimum" wishes first and bounds after
+)
 
 
 def speaks_of(plain: str) -> frozenset[str]:

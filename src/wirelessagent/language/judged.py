@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from wirelessagent.language.comparators import speaks_of
@@ -212,8 +213,7 @@ def _as_bounded(
         return moved(chances, ("outage", "reliability"), "share")
     if figure.kind == "power" and _is_of_a_carrier(plain, figure, beside):
         return moved(chances, tuple(chances), "subcarrier_max_power_w")
-    behind = _CARRIER_BEHIND.match(plain, figure.phrase_end) if figure.kind == "power" else None
-    if behind and behind.end() == beside[1] and is_chinese(plain[beside[1] - 1]):  # which is of the next
+    if figure.kind == "power" and _lead_on(plain, _CARRIER_BEHIND.match(plain, figure.phrase_end), beside[1]):
         return moved(chances, ("stale", "subcarrier_max_power_w"), "max_power_w")
     if figure.kind == "power" and not carriers:
         return moved(chances, ("subcarrier_max_power_w",), "max_power_w")
@@ -224,8 +224,7 @@ def _as_bounded(
 def _is_of_a_carrier(plain: str, figure: Quantity, beside: Span) -> bool:
     """Whether a power is said to be one of each subcarrier, behind it or ahead, between the figures ``beside``.
 
-    A rate of each subcarrier is none, nor what is denied: "not 10 W per subcarrier". In Chinese the words right ahead
-    of the next figure are of that: 14瓦每个子载波最多60毫瓦.
+    A rate of each subcarrier is none, nor what is denied: "not 10 W per subcarrier".
     """
     before, next_ = beside
     clause = plain[max(before, clause_start(plain, figure.phrase_start)) : figure.phrase_start]
@@ -233,11 +232,14 @@ def _is_of_a_carrier(plain: str, figure: Quantity, beside: Span) -> bool:
     of_each = ahead is not None and "rate" not in speaks_of(clause[: ahead.start()])
     taken = _CARRIER_BEHIND.match(plain, before) if before else None  # "0.1 W per subcarrier and 10 W in total"
     behind = _CARRIER_BEHIND.match(plain, figure.phrase_end)
-    taken, behind = (
-        None if each and each.end() == end and is_chinese(plain[end - 1]) else each
-        for each, end in ((taken, figure.phrase_start), (behind, next_))
-    )
-    return bool((of_each and not taken) or behind) and _DENIED.search(clause) is None
+    of_the_last = taken is not None and not _lead_on(plain, taken, figure.phrase_start)
+    own = behind is not None and not _lead_on(plain, behind, next_)
+    return ((of_each and not of_the_last) or own) and _DENIED.search(clause) is None
+
+
+def _lead_on(plain: str, words: re.Match[str] | None, start: int) -> bool:
+    """Whether words behind a figure are of the next, right ahead of which they stand: 14瓦每个子载波最多60毫瓦."""
+    return words is not None and words.end() == start and is_chinese(plain[start - 1])
 
 
 def _each_once(chances: Sequence[Mapping[str, float]]) -> list[Mapping[str, float]]:

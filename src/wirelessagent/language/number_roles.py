@@ -254,7 +254,7 @@ class Numbers:
         multiplying = (n for n in look.loose if n.form == "times")
         self.multiplied = [n for n in multiplying if any(plain[n.end : start].isspace() for start in starts)]
         unread = [number for number in plausible if number in look.loose]
-        together = {len(mention.users) for mention in look.mentions if len(mention.users) > 1}
+        together = _sizes(look.mentions)
         self.recounted = [(n.start, n.end) for n in unread if n.value in together]
         named = {user for mention in look.mentions for user in mention.users}
         self.harmless = [
@@ -302,11 +302,16 @@ def _users_of(
     named = [each for each in first.mentions if each.role == "named"]
     listed += [n for n in others for each in named if _BOTH.fullmatch(first.plain, each.end, n.start)]
     able = [*plausible, *(n for n in others if n in listed or _is_surely_a_user(first, n, chances))]
-    together = {len(each.users) for each in named if len(each.users) > 1}  # "user 3 and user 7, the two …"
+    together = _sizes(named)  # "user 3 and user 7, the two …"
     able = [n for n in able if n.value not in together or not _SEVERAL.search(first.plain, 0, n.start)]
     read = [*first.figures, *first.loose, *first.mentions]
     alone = ones(first.plain, [*taken, *((each.start, each.end) for each in read)]) if able else ()
     return _users(first.plain, able, [number for number in alone if number.value == 1], named, chances)
+
+
+def _sizes(found: Sequence[Mention]) -> set[int]:
+    """How many users are named together, where several are."""
+    return {len(mention.users) for mention in found if len(mention.users) > 1}
 
 
 def everybody_named(found: Sequence[Mention]) -> list[Mention]:
