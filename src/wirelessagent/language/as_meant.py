@@ -2,7 +2,8 @@
 
 Dictation misspells: "thirty dee bee em" is dBm, "twenty what's" are watts, "user to gets" is user 2. Which words are
 heard for which is data (``figures/<language>.toml``, ``[heard]``): anywhere, right behind a number, ahead of a unit,
-and right behind a noun of users. A figure or a user that the next words take back is blanked.
+and right behind a noun of users. A figure or a user that the next words take back is blanked, and so is what a figure
+was before, "from 1 to 2 Mbit/s".
 """
 
 from __future__ import annotations
@@ -24,7 +25,17 @@ from wirelessagent.language.mentions import (
 from wirelessagent.language.number_words import whole
 from wirelessagent.language.numerals import NUMBERED, Number, factors, numbers
 from wirelessagent.language.shares import worked_out
-from wirelessagent.language.text import AND, WORD, Span, normalise, overlaps, replaced, written_over
+from wirelessagent.language.text import (
+    AND,
+    WORD,
+    Span,
+    clause_end,
+    clause_start,
+    normalise,
+    overlaps,
+    replaced,
+    written_over,
+)
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import language_of
 from wirelessagent.language.word_tables import any_word, deferred, either, table
@@ -102,6 +113,12 @@ _ANOTHER_USER = deferred(rf"(?i){ANY_NOUN}")
 _GIVEN_AHEAD = deferred(rf"(?i)(?:\s*{GIVEN_TO})+\s*$")
 _LIST_AHEAD = deferred(rf"(?i){_NUMBER}\s*号?\s*(?:,\s*)?(?:{_JOINT}|,)\s*(?:{GIVEN_TO}\s*)?(?:{ANY_NOUN}\s*)?$")
 _LIST_BEHIND = deferred(rf"(?i)\s*号?\s*{_JOINT}\s*(?:{GIVEN_TO}\s*)?(?:{ANY_NOUN}\s*)?{_NUMBER}")
+_FROM, _FROM_OR_OF, CHANGES = (either("figures", "becoming", name) for name in ("from", "from_or_of", "changes"))
+LEADS = rf"(?<![A-Za-zÀ-ÿ]){any_word('figures', 'becoming', 'words')}(?![A-Za-zÀ-ÿ])"
+_LED = deferred(rf"(?i)(?:\s*(?:{CHANGES}))*\s*{LEADS}\s*")
+_LED_AHEAD = deferred(rf"(?i){LEADS}\s*$")
+_WAS = deferred(rf"(?i)\s*(?:{_FROM}|(?P<of>{_FROM_OR_OF}))\s*$")
+_CHANGED = deferred(rf"(?i){CHANGES}")
 
 
 def without_corrected(text: str) -> str:
@@ -114,7 +131,7 @@ def without_corrected(text: str) -> str:
     """
     done = list[Span]()
     plain = normalise(text)
-    for start, end, instead in (*_taken_back(plain), *_not_meant(plain)):
+    for start, end, instead in (*_taken_back(plain), *_not_meant(plain), *_was_before(plain)):
         if not overlaps((start, end), done):  # "14 watts uh no 13 watts": one is taken back, and not the other, too
             text = written_over(text, start, end, instead)
             done.append((start, end))
@@ -185,6 +202,29 @@ def _not_meant(plain: str) -> Iterator[tuple[int, int, str]]:
         parted = said is None or "," in said[0] or "\uff0c" in said[0] or said["instead"].strip() not in _DENIES
         if said is not None and alike and parted and _GOES_ON.match(plain, end):  # but "100 mW no 90 mW" corrects
             yield said.start("instead"), end, ""
+
+
+def _was_before(plain: str) -> Iterator[tuple[int, int, str]]:
+    """What a figure is changed from: "raise the floor from 1 to 2 Mbit/s", "erhöhe auf 2 Mbit/s von 500 kbit/s".
+
+    A number behind a word for "from" that is one for "of", too, may be somebody's: "erhöhe die Rate von 3 auf 2 Mbit/s".
+    """
+    found = list(numbers(plain))
+    for one, other in itertools.pairwise(found):
+        its, unit = unit_at(plain, one.end), unit_at(plain, other.end)
+        first, last = (each.end if each is not None else number.end for each, number in ((its, one), (unit, other)))
+        start, kinds = clause_start(plain, one.start), {each.kind for each in (its, unit) if each is not None}
+        if len(kinds) != 1 or not _CHANGED.search(plain, start, clause_end(plain, last)):
+            continue
+        was, led = _WAS.search(plain, start, one.start), _LED.fullmatch(plain, first, other.start)
+        alone = its is None and "rate" in kinds and not any(start <= each.start < one.start for each in found)
+        if was and led and not (was["of"] and alone and (one.value or 0) < MOST_USERS):
+            if unit is not None:
+                yield was.start(), led.start(), ""
+            elif _ENDED.match(plain, other.end):
+                yield was.start(), other.end, plain[led.start() : other.end] + plain[one.end : first]
+        elif its and unit and _LED_AHEAD.search(plain, start, one.start) and _WAS.fullmatch(plain, first, other.start):
+            yield first, last, ""
 
 
 def _counted(plain: str) -> list[Number]:

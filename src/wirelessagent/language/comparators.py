@@ -93,6 +93,11 @@ def speaks_of(plain: str) -> frozenset[str]:
     return frozenset(name for name, noun in (("power", _POWER_RE), ("rate", _RATE_RE)) if noun.search(plain))
 
 
+def nouns_of(kind: str, plain: str) -> list[tuple[int, int]]:
+    """Where words speak of "power" or of "rate"."""
+    return [match.span() for match in (_POWER_RE if kind == "power" else _RATE_RE).finditer(plain)]
+
+
 _POWER_RE, _RATE_RE = (deferred("(?i)" + _any_of(name)) for name in ("power", "rate"))
 WITH = r"(?:with|con|avec|mit|bei)\b"
 """Words behind which the noun ahead is one of a wish: "max rate with 1 Mbit/s"."""

@@ -8,13 +8,15 @@ doubt is raised instead of dropping or bending the figure.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from wirelessagent.language.allotments import RATES, Allotments, Target
-from wirelessagent.language.as_meant import turns
-from wirelessagent.language.comparators import WITH, speaks_of
+from wirelessagent.language.as_meant import CHANGES, LEADS, turns
+from wirelessagent.language.comparators import WITH, nouns_of, speaks_of
 from wirelessagent.language.judged import Judged
+from wirelessagent.language.mentions import GIVEN_TO
+from wirelessagent.language.moods import named_in
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.stated import (
     CARRIERS,
@@ -24,13 +26,12 @@ from wirelessagent.language.stated import (
     take_counts,
     take_multiples,
 )
-from wirelessagent.language.text import Beside, Phrases, clause_end, clause_start, overlaps
-from wirelessagent.language.word_tables import deferred, either
+from wirelessagent.language.text import AND, Beside, Phrases, Span, clause_end, clause_start, overlaps, written_over
+from wirelessagent.language.word_tables import any_word, deferred, either
 
 _STEP = Phrases(either("figures", "one", "watt_more"), marks="watt vatio 一瓦")
-_SET_TO = deferred(  # what sets a limit is no wish for the highest rate or the least power
-    rf"(?i)(?:{either('figures', 'bounds', 'set_to')})\s*$"
-)
+_SET = deferred(rf"(?i)(?:{CHANGES})(?:\s+(?!{AND})\w+){{0,3}}?\s*$")
+_SET_TO = deferred(rf"(?i)(?:\s|{CHANGES}|{GIVEN_TO}|\b{any_word('figures', 'shares_of', 'of')}\b)*{LEADS}\s*$")
 _NOUNS = "|".join(either("figures", "bounds", name) for name in ("between", "rate", "power"))
 _FOR = deferred(r"(?i)\s*(?:\b(?:for|to|für|para|pour|à)\b|给)\s*(?:the\s+|l'\s?|el\s+|los\s+|les\s+)?")
 _TAKES = either("figures", "users", "takes")
@@ -186,9 +187,7 @@ class _Reader:
     def _limited(self, index: int, figure: Quantity) -> str:
         """Take a figure as a limit, or say what is to be asked."""
         role = self._judged.role(index)
-        setting = _SET_TO.search(self._reading.plain, max(0, figure.start - _NEAR), figure.start)
-        if setting is not None:
-            self._reading.masked.append((setting.start(), figure.end))
+        self._reading.masked += self._setting(figure, role)
         another = self._with(_OF_ANOTHER_KIND, figure)
         if another:
             self._reading.doubt("another_figure", text=another)
@@ -222,6 +221,20 @@ class _Reader:
             for name in ("min_rate_bps", "max_rate_bps") if role == "both" else (role,):
                 self._give(name, target, figure)
         return ""
+
+    def _setting(self, figure: Quantity, role: str) -> Iterator[Span]:
+        """Where words set a limit to a figure, and wish for nothing: "raise the minimum rate of user 3 to 2 Mbit/s"."""
+        plain = self._reading.plain
+        for each in self._judged.mentions:
+            plain = written_over(plain, each.start, each.end, "")
+        start = clause_start(plain, figure.phrase_start)
+        start = max([start, *(each.end for each in self._judged.figures if each.end <= figure.start)])
+        nouns = [span for span, name in named_in(plain) if name == role]
+        nouns += nouns_of(figure.kind, plain)
+        for first, last in nouns:
+            if start <= first and last <= figure.start and _SET_TO.fullmatch(plain, last, figure.start):
+                verb = _SET.search(plain, start, first)
+                yield verb.start() if verb else first, figure.end
 
     def _give(self, name: str, target: Target, figure: Quantity) -> None:
         earlier = self._allotments.give(name, target, figure)

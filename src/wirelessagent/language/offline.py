@@ -85,6 +85,8 @@ def judge(sentence: Sentence) -> Judgement:
             kind="allocate", objective=goal.objective, likeliest=1.0, limits=0.0, certainty=goal.confidence,
             objective_clear=True,
         )  # fmt: skip
+    if sentence.reading.values and all(unit.word == MASK for unit in sentence.units):  # no word is left for an aim
+        return Judgement(kind="clarify", objective=objective, likeliest=0.0, limits=1.0)
     kind, spoken_of = _kind(sentence, kinds, objective, share), _spoken_of(goal, labels)
     told = kind == "clarify" and sentence.worded and sentence.chances.is_told
     if told and spoken_of is not None and spoken_of in labels:

@@ -28,6 +28,7 @@ from wirelessagent.language.text import (
     is_chinese,
     normalise,
     overlaps,
+    sentences,
     unaccented,
     written_over,
 )
@@ -55,6 +56,10 @@ _OF_AIMS = (
     "waste", "share",
 )  # fmt: skip
 """Concepts whose words say what is wanted, and not whether."""
+_TELLS, _TELLS_FIGURES = 0.5, 0.2
+"""How unlikely a sentence has to order something by itself to be left aside, and one that has figures."""
+_FEWEST_WORDS = 3
+"""Beside figures and users, of what tells something by itself."""
 _AND, _AND_LAST = deferred(rf"(?i)\b(?:{AND})\b"), deferred(rf"(?i)\b(?:{AND})\s*$")
 
 
@@ -67,8 +72,8 @@ class Sentence:
     ) -> None:  # fmt: skip
         said = as_meant(text)
         for start, end in gone:
-            said = written_over(said, start, end, "")
-        self.text, self.plain, self.language = text, normalise(said), language_of(text)
+            text, said = (written_over(each, start, end, "") for each in (text, said))
+        self.text, self.plain, self.language, self._gone = text, normalise(said), language_of(text), gone
         self._own, self._names, self._max_power_w, self.quantities = own, names, max_power_w, parse_quantities(said)
         self.reading: Reading = read_constraints(
             said, self.plain, self.quantities, names=names, max_power_w=max_power_w
@@ -180,9 +185,40 @@ class Sentence:
                 if self._is_aim(self.plain[ahead:last]):
                     gone += [(ahead, last), (start, end)]
                     break
-        if not gone:
+        return self._without(gone) if gone else self
+
+    def without_what_it_tells(self) -> Sentence:
+        """An order without the sentences beside that only tell or ask: "Last night user 3 was slow. Max rate."
+
+        It stays whole where the rest is no order, or means something else by itself: "… Give him 2 Mbit/s."
+        """
+        spans = sentences(self.text)
+        told = [span for span in spans if self._only_tells(span)] if len(spans) > 1 else []
+        if not told or len(told) == len(spans):
             return self
-        return Sentence(self.text, self._own, names=self._names, max_power_w=self._max_power_w, gone=gone)
+        rest, whole = self._without(told), self.reading
+        refers = bool(whole.named) and not rest.reading.named
+        same = all(mark in whole.marks for mark in rest.reading.marks) and (whole.doubts or not rest.reading.doubts)
+        if refers or not same or not rest.chances.is_order:
+            return self
+        rest.reading.not_used += [self.text[slice(*span)].strip() for span in told if self._has_figures(span)]
+        return rest
+
+    def _only_tells(self, span: Span) -> bool:
+        sentence = Sentence(self.text[slice(*span)], self._own, names=self._names)
+        if sum(word.said.isalnum() for word in sentence.words) < _FEWEST_WORDS:  # "User 7? Not served."
+            return False
+        chances = sentence.chances
+        least = _TELLS_FIGURES if self._has_figures(span) else _TELLS
+        return chances.order < least and (chances.is_told or chances.asks)
+
+    def _has_figures(self, span: Span) -> bool:
+        return any(span[0] <= start < span[1] for start, _, mark in self._marked if mark != "@user")
+
+    def _without(self, gone: Sequence[Span]) -> Sentence:
+        return Sentence(
+            self.text, self._own, names=self._names, max_power_w=self._max_power_w, gone=(*self._gone, *gone)
+        )
 
     def _is_aim(self, words: str) -> bool:
         """Whether some words of the sentence, by themselves, are likely to order an aim."""
@@ -222,7 +258,8 @@ def read_once(text: str, own: tuple[OwnWords, ...], context: Context | None) -> 
 
 @functools.lru_cache(maxsize=4)
 def _read(text: str, own: tuple[OwnWords, ...], names: tuple[str, ...], max_power_w: float) -> Sentence:
-    return Sentence(text, own, names=names, max_power_w=max_power_w).without_aims_taken_back()
+    whole = Sentence(text, own, names=names, max_power_w=max_power_w)
+    return whole.without_what_it_tells().without_aims_taken_back()
 
 
 def own_words() -> tuple[OwnWords, ...]:

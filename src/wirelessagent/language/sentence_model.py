@@ -98,6 +98,11 @@ class Chances:
         return max(self.kinds, key=lambda kind: self.kinds[kind]) == TOLD
 
     @property
+    def asks(self) -> bool:
+        """Whether it is likeliest to ask something."""
+        return max(self.kinds, key=lambda kind: self.kinds[kind]).startswith("question")
+
+    @property
     def is_order(self) -> bool:
         """Whether it is likely enough to order something, and does not only tell of it."""
         return self.orders(LIKELY)

@@ -179,6 +179,9 @@ class Phrases:
         return not self.marks or any(mark in text for mark in self.marks)
 
 
+_SENTENCE_END = re.compile(r"(?<=[.!?…])\s+(?=[A-ZÀ-Þ¿¡\"«„“(])|(?<=[。！？])(?=\S)")
+
+
 def clause_start(plain: str, place: int, from_: int = 0) -> int:
     """Where the clause that ``place`` lies in begins, no farther ahead than ``from_``.
 
@@ -215,6 +218,17 @@ def clauses(plain: str, whole: Sequence[Span] = ()) -> list[Span]:
     cuts = [cut for cut in _cuts(plain) if not any(start < cut < end for start, end in whole)]
     spans = zip((0, *(cut + 1 for cut in cuts)), (*cuts, len(plain)), strict=True)
     return [(start, end) for start, end in spans if plain[start:end].strip()]
+
+
+def sentences(text: str) -> list[Span]:
+    """The spans of the sentences of a text, from left to right.
+
+    >>> text = "It was slow. Max rate, 1.5 W max. per user"
+    >>> [text[start:end] for start, end in sentences(text)]
+    ['It was slow. ', 'Max rate, 1.5 W max. per user']
+    """
+    ends = [match.end() for match in _SENTENCE_END.finditer(text)]
+    return [(start, end) for start, end in zip((0, *ends), (*ends, len(text)), strict=True) if text[start:end].strip()]
 
 
 @functools.lru_cache(maxsize=64)

@@ -1,0 +1,68 @@
+"""Figures that limits are changed to, from what they were: words that set a limit wish for nothing."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from wirelessagent.language.as_meant import as_meant
+from wirelessagent.language.conversation import understood
+from wirelessagent.language.offline import OfflineRecogniser
+from wirelessagent.language.recogniser import Context
+
+NAMES = tuple(f"user {number}" for number in range(1, 9))
+HOLDS = Context(user_names=NAMES, objective="proportional_fairness", constraints={"max_power_w": 16.0}, language="en")
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("Raise user 3's guaranteed rate from 1 to 2 Mbit/s.", {"min_rate_bps": {"3": 2e6}}),
+        ("Raise user 3 to 2 Mbit/s from 500 kbit/s.", {"min_rate_bps": {"3": 2e6}}),
+        ("Increase the floor from 1 Mbit/s to 2.", {"min_rate_bps": 2e6}),
+        ("Change user 3's cap from 1 to 2 Mbit/s.", {"max_rate_bps": {"3": 2e6}}),
+        ("Cut the power limit from 20 W to 12 W.", {"max_power_w": 12.0}),
+        ("Baisse le plafond de puissance de 20 à 12 W.", {"max_power_w": 12.0}),
+        ("Erhöhe die Mindestrate von Nutzer 3 von 1 auf 2 Mbit/s.", {"min_rate_bps": {"3": 2e6}}),
+        ("Senk die Leistungsgrenze von 20 auf 12 W.", {"max_power_w": 12.0}),
+        ("Baja el límite de potencia de 20 a 12 W.", {"max_power_w": 12.0}),
+        ("把3号的保底从1兆提到2兆", {"min_rate_bps": {"3": 2e6}}),
+        ("功率上限从20瓦降到12瓦", {"max_power_w": 12.0}),
+    ],
+)
+def test_what_a_figure_was_before_is_no_limit(text: str, values: dict[str, Any]) -> None:
+    intent = understood(text, HOLDS, OfflineRecogniser())
+    assert (intent.objective, dict(intent.constraints)) == (HOLDS.objective, values)
+
+
+@pytest.mark.parametrize(
+    "text", ["user 3 from 1 to 2 Mbit/s", "erhöhe die Rate von 3 auf 2 Mbit/s", "serve users from 1 to 4"]
+)
+def test_ranges_and_users_are_left_as_they_are(text: str) -> None:
+    assert as_meant(text) == text
+
+
+@pytest.mark.parametrize(
+    ("text", "user"),
+    [
+        ("Raise the minimum rate of user 3 to 2 Mbit/s.", "3"),
+        ("Erhöhe die Mindestrate von Nutzer 3 auf 2 Mbit/s.", "3"),
+        ("Aumenta la tasa mínima del usuario 3 a 2 Mbit/s.", "3"),
+        ("最低速率提高到2兆", ""),
+        ("Raise everybody to 2 Mbit/s.", ""),
+    ],
+)
+def test_a_limit_that_is_raised_is_no_aim(text: str, user: str) -> None:
+    intent = understood(text, HOLDS, OfflineRecogniser())
+    assert intent.objective == HOLDS.objective
+    assert dict(intent.constraints) == {"min_rate_bps": {user: 2e6} if user else 2e6}
+
+
+def test_an_aim_beside_a_limit_that_is_set_stays() -> None:
+    said = {
+        "Maximise the sum rate with user 3 raised to 2 Mbit/s.": "max_rate",
+        "Maximise the minimum rate, 12 W at most.": "max_min_rate",
+        "Cut power to 12 W, as fair as possible.": "proportional_fairness",
+    }
+    assert {text: understood(text, HOLDS, OfflineRecogniser()).objective for text in said} == said
