@@ -182,3 +182,10 @@ def test_who_is_left_out_may_be_corrected(text: str, out: tuple[str, ...]) -> No
 
 def test_somebody_may_leave() -> None:
     assert recognise("让8号离开，总速率最高").constraints["leave_out"] == ("8",)
+
+
+def test_whoever_is_excepted_may_have_a_cap_alone() -> None:
+    names = tuple(f"user {number}" for number in range(1, 9))
+    said = "max rate; everyone except user 1 must get at least 600 kbit/s; user 1 must not exceed 1 Mbit/s"
+    constraints = OfflineRecogniser().recognise(said, Context(user_names=names)).constraints
+    assert constraints == {"min_rate_bps": {"all": 6e5, "1": 0.0}, "max_rate_bps": {"1": 1e6}}

@@ -22,6 +22,7 @@ POWERS = [
     ("7 nW", 7e-9), ("20 dBm", 0.1), ("30dBm", 1.0), ("30 dbm", 1.0), ("30 DBM", 1.0), ("0 dBm", 1e-3),
     ("-10 dBm", 1e-4), ("−10 dBm", 1e-4), ("minus 10 dBm", 1e-4), ("10 dBW", 10.0), ("-3 dBW", 10**-0.3),
     ("46 dBm", 10**1.6), ("ten watts", 10.0), ("twenty-five watts", 25.0), ("half a watt", 0.5),
+    ("a twentieth of a watt", 0.05), ("ein zwanzigstel Watt", 0.05), ("un vingtième de watt", 0.05),
     ("one and a half watts", 1.5), ("two point five watts", 2.5), ("three hundred and fifty milliwatts", 0.35),
     ("three quarters of a watt", 0.75), ("5 thousand milliwatts", 5.0), ("1e-3 W", 1e-3), ("-5 W", -5.0),
     ("10瓦", 10.0), ("10 瓦特", 10.0), ("200毫瓦", 0.2), ("5微瓦", 5e-6), ("2千瓦", 2000.0), ("十瓦", 10.0),
@@ -32,6 +33,7 @@ POWERS = [
 ]  # fmt: skip
 
 RATES = [
+    ("a million bits", 1e6), ("eine Million Bit", 1e6), ("un million de bits", 1e6), ("two million bits", 2e6),
     ("1 bit/s", 1.0), ("64 bps", 64.0), ("300 b/s", 300.0), ("500 bits per second", 500.0), ("500 bits/s", 500.0),
     ("200 kbit/s", 200e3), ("200kbit/s", 200e3), ("200 Kbit/s", 200e3), ("200 kbps", 200e3), ("200 Kbps", 200e3),
     ("200 KBPS", 200e3), ("200 kb/s", 200e3), ("200 Kb/s", 200e3), ("200 kbits/s", 200e3), ("200 kbit/sec", 200e3),

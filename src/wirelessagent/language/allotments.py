@@ -168,8 +168,8 @@ class Allotments:
             lifts = self._lifted.get(mention, frozenset())
             meant = [name for name in RATES if self._given[name] and (not lifts or may_be_lifted(name, lifts))]
             of_all = [name for name in meant if EVERYBODY in self._given[name]]
-            own = any(user in self._given[name] for name in meant for user in mention.users)
-            alone = any({*self._given[name]} <= {*mention.users} for name in meant)
+            own = any(user in self._given[name] for name in of_all or meant for user in mention.users)
+            alone = any({*self._given[name]} <= {*mention.users} for name in of_all or meant)
             others = [user for user in self._judged.users_of_the_cell if user not in mention.users]
             known = "max_rate_bps" not in of_all or others  # a ceiling of the others is one of each of them
             if alone or not (known and (meant if lifts else len(of_all) == 1 and not own)):  # what does not hold
@@ -264,7 +264,8 @@ class Allotments:
         lifted, clause = self._goes_without(mention), self._plain[slice(*self._clause_of(mention))]
         if lifted is None and self._is_out_of_all(mention) and (lifted_in(clause) or _UNLIMITED.search(clause)):
             return "unclear"  # "no limit on anyone except user 3", "lift the least rate of all but user 3"
-        if said["exempt"] > _SURE_OF_A_ROLE or lifted is not None:
+        again = any(each is not mention and {*each.users} == {*mention.users} for each in self._found)
+        if said["exempt"] > _SURE_OF_A_ROLE or lifted is not None or (again and self._is_out_of_all(mention)):
             self._lifted[mention] = lifted or frozenset()
             return "exempt"  # whatever rate stands beside it is that of all others
         role = self._likely[mention] = max(chances, key=lambda each: chances[each])

@@ -207,7 +207,7 @@ def _not_meant(plain: str) -> Iterator[tuple[int, int, str]]:
 def _was_before(plain: str) -> Iterator[tuple[int, int, str]]:
     """What a figure is changed from: "raise the floor from 1 to 2 Mbit/s", "erhöhe auf 2 Mbit/s von 500 kbit/s".
 
-    A number behind a word for "from" that is one for "of", too, may be somebody's: "erhöhe die Rate von 3 auf 2 Mbit/s".
+    Behind a word for "from" that is one for "of", too, a number may be somebody's: "die Rate von 3 auf 2 Mbit/s".
     """
     found = list(numbers(plain))
     for one, other in itertools.pairwise(found):

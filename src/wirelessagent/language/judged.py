@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.figure_roles import answers, likely, shipped_roles
-from wirelessagent.language.mentions import EXCEPTED, GIVEN_TO, JOINT_WORDS, WHO, Mention
+from wirelessagent.language.mentions import EXCEPTED, GIVEN_TO, JOINT_WORDS, NOBODY, WHO, Mention
 from wirelessagent.language.number_roles import ITEMS, Numbers, everybody_named, jointly, moved, runs, series, shares
 from wirelessagent.language.numerals import Number, factors
 from wirelessagent.language.quantities import Quantity
@@ -89,6 +89,13 @@ class Judged:
         others = not named or between[-1] != named[-1]
         if not others and WHO.fullmatch(self._look.plain, named[-1].end, start):
             return {named[-1]: 1.0}  # "except user 5, who needs 1 Mbit/s"
+        last = between[-1] if between else None
+        if (
+            last
+            and NOBODY.search(self._look.plain[last.start : last.end])
+            and not any(last.end <= each.start < start for each in self.figures)
+        ):
+            return {last: 1.0}  # "the others at least 1 Mbit/s, and nobody goes above 6 Mbit/s"
         everyone = [*(each for each in self.mentions if not self._is_aside(each, start)), None]
         seen = self.view.owners(start, everyone)
         return likely([shipped_roles().scores("link", features)[0] for features in seen], everyone)
@@ -166,7 +173,9 @@ class Judged:
 
     def _has_no_bound(self, figure: Quantity) -> bool:
         """Whether a figure leaves open how it bounds: "user 2 1 Mbit/s guaranteed" does not."""
-        return figure.comparator is None and _UNBOUND.match(self._look.plain, figure.end) is not None
+        plain, end = self._look.plain, figure.end
+        somebody = any(plain[end : each.start].isspace() for each in self.mentions)
+        return figure.comparator is None and (somebody or _UNBOUND.match(plain, end) is not None)
 
     def said_of(self, mention: Mention) -> Mapping[str, float]:
         """How likely somebody named has each role, by the words alone."""

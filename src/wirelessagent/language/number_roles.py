@@ -394,7 +394,9 @@ def _borrowing(look: Look, roles: _Roles, users: Sequence[Number]) -> dict[Numbe
     """The numbers that are figures by the unit of another, each with its role."""
     found: dict[Number, str] = {}
     for number, chances in roles.items():
-        role = max(BORROWING, key=lambda each: chances[each])
+        value = number.value or Decimal(0)
+        multiplies = value < 1 or (number.form == "times" and value % 1 == 0)  # not "die acht bei zweieinhalb"
+        role = max(BORROWING, key=lambda each: chances[each] * (multiplies or each != "multiple"))
         scaled = SCALED.match(look.plain, number.end) is not None
         foreign = FOREIGN_UNIT.match(look.plain, number.end) is not None
         if number not in users and (scaled or not foreign) and _is_a_figure(look, number, chances, role):

@@ -23,7 +23,7 @@ from decimal import Decimal
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.comparators import BETWEEN, Comparator, comparison
-from wirelessagent.language.mentions import is_of_each
+from wirelessagent.language.mentions import GIVEN_TO, is_of_each
 from wirelessagent.language.number_words import cardinals, listed
 from wirelessagent.language.numerals import NUMBERED, Number, and_part, chinese_value, numbers
 from wirelessagent.language.text import AND, USER_NOUN, Phrases, Span, has_chinese, normalise, overlaps
@@ -174,13 +174,27 @@ def _with_half(plain: str, number: Number, unit: Unit) -> Measure:
     return Measure(number=dataclasses.replace(number, value=value), unit=unit, start=number.start, end=end)
 
 
+_GIVEN = deferred(rf"(?i)\s*(?:{GIVEN_TO}\s*)+")
+
+
 def _is_tenths(plain: str, number: Number) -> bool:
-    """Whether a number behind a unit says its tenths, as French and Spanish do, and nothing of its own."""
+    """Whether a number behind a unit says its tenths, as French and Spanish do, and nothing of its own.
+
+    Where several units have a number behind, somebody has to stand beside one of them: "un méga quatre au deux".
+    """
+    if number.form != "foreign" or number.value not in range(1, 10) or language_of(plain) not in ("es", "fr"):
+        return False
     found = numbers(plain)
-    ends = [unit.end for each in found if (unit := unit_at(plain, each.end)) is not None]
-    rows = sum(plain[end : each.start] == " " for end in ends for each in found)  # "un méga trois, deux mégas quatre"
-    digit = number.form == "foreign" and number.value in range(1, 10) and rows == 1
-    return digit and _NOTHING_COUNTED.match(plain, number.end) is not None and language_of(plain) in ("es", "fr")
+    ends = [unit.end if (unit := unit_at(plain, each.end)) is not None else len(plain) for each in found]
+    rows = [place for place in range(1, len(found)) if plain[ends[place - 1] : found[place].start] == " "]
+
+    def leads_on(place: int) -> bool:  # to somebody
+        given = _GIVEN.match(plain, found[place].end)
+        return given is not None and any(each.start == given.end() for each in found[place + 1 : place + 2])
+
+    ahead = (place > 1 and plain[found[place - 2].end : found[place - 1].start].isspace() for place in rows)
+    alone = leads_on(found.index(number)) or _NOTHING_COUNTED.match(plain, number.end) is not None
+    return alone and (len(rows) == 1 or any(ahead) or any(map(leads_on, rows)))
 
 
 def _share(plain: str, number: Number) -> Measure | None:

@@ -164,7 +164,7 @@ _DESCRIBED_AFTER = deferred(rf"(?i)\s*(?:$|(?:{either('figures', 'users', 'behin
 _COUNT = rf"(?:[0-9]+|{'|'.join(cardinals(2, 10))})"
 COUNTED_USERS = deferred(
     rf"(?i)(?<![\w.,/^*-]){_COUNT} (?:{either('figures', 'users', 'counted')})|"
-    r"[0-9两二三四五六七八九十]+\s*个(?:用户|设备|传感器|子载波)"
+    r"(?:[0-9]+|[两二三四五六七八九十]+)\s*个(?:用户|设备|传感器|子载波)"
 )
 CARRIERS = Phrases(either("figures", "bounds", "carriers"))
 _SOME_USERS, _ONE_OF = (Phrases(either("figures", "users", name, **PLACED)) for name in ("some", "one_of"))
@@ -225,7 +225,7 @@ _CARRIER = "|".join(words_of("figures", "grouped", "carriers"))
 _BLOCKS = Phrases(
     rf"(?P<ahead>{_TOGETHER_WORDS})(?=\s*(?:(?:of|de|von|的)\s*)?(?:{_CARRIER}|子载波))|"
     rf"(?:{_CARRIER}|子载波)(?:\s+\w+){{0,6}}?\s*(?P<behind>{_TOGETHER_WORDS})"
-    r"|\b(?P<fold>[a-zäöüß]{3,})er-?(?:gruppen?|blöcken?|blöcke|päckchen|packs?|bündeln?)\b",
+    r"|\b(?P<fold>[a-zäöüß]{3,})er[-\s]?(?:gruppen?|blöcken?|blöcke|päckchen|packs?|bündeln?)\b",
     marks=" ".join({word.split()[-1] for word in _TOGETHER} | {"gruppe", "blöck", "päck", "pack", "bündel"}),
 )
 _GROUP = f"(?:{'|'.join(words_of('figures', 'grouped', 'carriers', 'groups'))})"

@@ -15,7 +15,7 @@ from decimal import Decimal
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.vocabulary import one_edit
-from wirelessagent.language.word_tables import any_word, deferred
+from wirelessagent.language.word_tables import any_word, deferred, words_of
 from wirelessagent.model.units import dbm_to_w
 
 UnitKind: TypeAlias = Literal["power", "rate", "ratio"]
@@ -169,6 +169,11 @@ def _unit(text: str, start: int) -> Unit | None:
     return None
 
 
+_SCALE_AHEAD = deferred(
+    rf"(?i)(?:[千万]|\b(?:{'|'.join(words_of('figures', 'numbers', 'scales'))})(?:\s+(?:de|d'))?)\s*$"
+)
+
+
 def _unit_of_bits(match: re.Match[str]) -> Unit | None:
     """The rate that bits or bytes are; None for an amount of them."""
     said, ahead = match.groupdict(""), match.string[max(0, match.start() - 12) : match.start()]
@@ -177,7 +182,7 @@ def _unit_of_bits(match: re.Match[str]) -> Unit | None:
     shouted = core == "B" and second == "PS"  # in capitals throughout: the usual bps
     is_bytes = not shouted and (core == "B" or core.lower().startswith(("byte", "o", "字节")))
     per_second = second or said["per"] or "每秒" in ahead
-    if not per_second and (is_bytes or not (prefix or ahead.endswith(("千", "万")))):  # "800千比特"
+    if not per_second and (is_bytes or not (prefix or _SCALE_AHEAD.search(ahead))):  # "a million bits", "800千比特"
         return None
     factor = _scale(prefix, binary=bool(said.get("binary"))) * (8 if is_bytes else 1)
     doubtful = said["core"] == "B" and match.group().endswith("S")
