@@ -35,11 +35,24 @@ def test_what_is_only_told_beside_an_order_is_left_aside(
 
 
 def test_figures_that_are_left_aside_are_said() -> None:
-    intent = understood(
-        "The cell next door used 12 W last year. Highest total rate, please.", CELL, OfflineRecogniser()
-    )
-    assert intent.constraints == {}
-    assert "12 W" in intent.evidence["not_used"]
+    said = "Last week user 3 had 5 Mbit/s. Today promise user 3 2 Mbit/s, with the least power."
+    assert "5 Mbit/s" in understood(said, CELL, OfflineRecogniser()).evidence["not_used"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Our contract promised everyone 1 Mbit/s. Maximum total rate.",
+        "The limit was 12 W. No more. Highest sum rate.",
+        "Since Monday the limit has been 12 W. Highest sum rate.",
+        "Depuis hier la limite est de 12 W. Débit total maximal.",
+        "Blocks of 4 were agreed. Highest sum rate.",
+        "领导说最多12瓦。总速率最高。",
+    ],
+)
+def test_a_limit_that_is_told_and_may_hold_is_not_dropped(text: str) -> None:
+    intent = understood(text, CELL, OfflineRecogniser())
+    assert intent.kind != "allocate" or intent.constraints
 
 
 @pytest.mark.parametrize(

@@ -264,8 +264,9 @@ class Allotments:
         lifted, clause = self._goes_without(mention), self._plain[slice(*self._clause_of(mention))]
         if lifted is None and self._is_out_of_all(mention) and (lifted_in(clause) or _UNLIMITED.search(clause)):
             return "unclear"  # "no limit on anyone except user 3", "lift the least rate of all but user 3"
+        rated = self._has_figures(*self._clause_of(mention), kind="rate")
         again = any(each is not mention and {*each.users} == {*mention.users} for each in self._found)
-        if said["exempt"] > _SURE_OF_A_ROLE or lifted is not None or (again and self._is_out_of_all(mention)):
+        if said["exempt"] > _SURE_OF_A_ROLE or lifted is not None or (again and rated and self._is_out_of_all(mention)):
             self._lifted[mention] = lifted or frozenset()
             return "exempt"  # whatever rate stands beside it is that of all others
         role = self._likely[mention] = max(chances, key=lambda each: chances[each])
@@ -277,7 +278,6 @@ class Allotments:
             return role
         if mention.role != "named" or chances["given"] >= _SURE_OF_NO_ROLE:
             return "given"
-        rated = self._has_figures(*self._clause_of(mention), kind="rate")
         return "exempt" if rated and self._is_out_of_all(mention) else "unclear"
 
     def _is_out_of_all(self, mention: Mention) -> bool:

@@ -113,12 +113,17 @@ _ANOTHER_USER = deferred(rf"(?i){ANY_NOUN}")
 _GIVEN_AHEAD = deferred(rf"(?i)(?:\s*{GIVEN_TO})+\s*$")
 _LIST_AHEAD = deferred(rf"(?i){_NUMBER}\s*号?\s*(?:,\s*)?(?:{_JOINT}|,)\s*(?:{GIVEN_TO}\s*)?(?:{ANY_NOUN}\s*)?$")
 _LIST_BEHIND = deferred(rf"(?i)\s*号?\s*{_JOINT}\s*(?:{GIVEN_TO}\s*)?(?:{ANY_NOUN}\s*)?{_NUMBER}")
-_FROM, _FROM_OR_OF, CHANGES = (either("figures", "becoming", name) for name in ("from", "from_or_of", "changes"))
+_FROM, _FROM_OR_OF, RAISES, _LOWERS, _OTHERWISE = (
+    either("figures", "becoming", name) for name in ("from", "from_or_of", "raises", "lowers", "changes")
+)
+CHANGES = f"{RAISES}|{_LOWERS}|{_OTHERWISE}"
 LEADS = rf"(?<![A-Za-zÀ-ÿ]){any_word('figures', 'becoming', 'words')}(?![A-Za-zÀ-ÿ])"
 _LED = deferred(rf"(?i)(?:\s*(?:{CHANGES}))*\s*{LEADS}\s*")
 _LED_AHEAD = deferred(rf"(?i){LEADS}\s*$")
 _WAS = deferred(rf"(?i)\s*(?:{_FROM}|(?P<of>{_FROM_OR_OF}))\s*$")
-_CHANGED = deferred(rf"(?i){CHANGES}")
+_CHANGED = deferred(rf"(?i)(?P<up>{RAISES})|(?P<down>{_LOWERS})|{_OTHERWISE}")
+_BEFORE = deferred(rf"(?i)\s*[,(\uff08]\s*(?:{either('figures', 'becoming', 'before')})\s*:?\s*$")
+_LEADS_ON = deferred(rf"(?i){LEADS}")
 
 
 def without_corrected(text: str) -> str:
@@ -214,14 +219,22 @@ def _was_before(plain: str) -> Iterator[tuple[int, int, str]]:
         its, unit = unit_at(plain, one.end), unit_at(plain, other.end)
         first, last = (each.end if each is not None else number.end for each, number in ((its, one), (unit, other)))
         start, kinds = clause_start(plain, one.start), {each.kind for each in (its, unit) if each is not None}
-        if len(kinds) != 1 or not _CHANGED.search(plain, start, clause_end(plain, last)):
+        verb, aside = _CHANGED.search(plain, start, clause_end(plain, last)), _BEFORE.search(plain, first, other.start)
+        if aside and its and unit and its.kind == unit.kind:  # "1 Mbit/s (before: 2 Mbit/s)"
+            yield aside.start(), last + (plain[last : last + 1] in ")\uff09"), ""
+        if len(kinds) != 1 or verb is None:
             continue
         was, led = _WAS.search(plain, start, one.start), _LED.fullmatch(plain, first, other.start)
+        values = [(each or its or unit, number) for each, number in ((its, one), (unit, other))]
+        old, new = (each.value(number.value or Decimal(0)) for each, number in values if each is not None)
+        fits = {"up": old < new, "down": old > new}.get(verb.lastgroup or "", True)
         alone = its is None and "rate" in kinds and not any(start <= each.start < one.start for each in found)
-        if was and led and not (was["of"] and alone and (one.value or 0) < MOST_USERS):
+        of = was is not None and was["of"] is not None
+        ranged = was is not None and _LEADS_ON.search(plain, verb.end(), was.start()) is not None
+        if was and led and fits and not ranged and not (of and alone and (one.value or 0) < MOST_USERS):
             if unit is not None:
                 yield was.start(), led.start(), ""
-            elif _ENDED.match(plain, other.end):
+            elif not of and _ENDED.match(plain, other.end):
                 yield was.start(), other.end, plain[led.start() : other.end] + plain[one.end : first]
         elif its and unit and _LED_AHEAD.search(plain, start, one.start) and _WAS.fullmatch(plain, first, other.start):
             yield first, last, ""

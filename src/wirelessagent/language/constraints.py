@@ -30,7 +30,7 @@ from wirelessagent.language.text import AND, Beside, Phrases, Span, clause_end, 
 from wirelessagent.language.word_tables import any_word, deferred, either
 
 _STEP = Phrases(either("figures", "one", "watt_more"), marks="watt vatio 一瓦")
-_SET = deferred(rf"(?i)(?:{CHANGES})(?:\s+(?!{AND})\w+){{0,3}}?\s*$")
+_SET = deferred(rf"(?i)(?P<verb>{CHANGES})(?:\s+(?!{AND})\w+){{0,3}}?\s*$")
 _SET_TO = deferred(rf"(?i)(?:\s|{CHANGES}|{GIVEN_TO}|\b{any_word('figures', 'shares_of', 'of')}\b)*{LEADS}\s*$")
 _NOUNS = "|".join(either("figures", "bounds", name) for name in ("between", "rate", "power"))
 _FOR = deferred(r"(?i)\s*(?:\b(?:for|to|für|para|pour|à)\b|给)\s*(?:the\s+|l'\s?|el\s+|los\s+|les\s+)?")
@@ -234,7 +234,8 @@ class _Reader:
         for first, last in nouns:
             if start <= first and last <= figure.start and _SET_TO.fullmatch(plain, last, figure.start):
                 verb = _SET.search(plain, start, first)
-                yield verb.start() if verb else first, figure.end
+                own = verb is not None and not speaks_of(plain[verb.end("verb") : first])
+                yield verb.start() if verb and own else first, figure.end
 
     def _give(self, name: str, target: Target, figure: Quantity) -> None:
         earlier = self._allotments.give(name, target, figure)

@@ -11,6 +11,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 
+from wirelessagent.language.as_meant import LEADS, RAISES
 from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.figure_roles import answers, likely, shipped_roles
 from wirelessagent.language.mentions import EXCEPTED, GIVEN_TO, JOINT_WORDS, NOBODY, WHO, Mention
@@ -20,7 +21,7 @@ from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.request import numbered
 from wirelessagent.language.stated import CARRIERS, EACH_CARRIER, POWER_NOUNS, is_spared, shares_power
 from wirelessagent.language.text import AND, Beside, Phrases, Span, clause_start, is_chinese
-from wirelessagent.language.word_tables import any_word, deferred, either
+from wirelessagent.language.word_tables import any_word, deferred, either, words_of
 
 # The share of those who have a rate or a weight, among all users named and among those of each role.
 _OWN, _OWNS = 0.7, {"users": 0.4, "given": 0.95, "unclear": 0.2}
@@ -47,6 +48,11 @@ _CARRIER_AHEAD = deferred(
     rf"(?i){EACH_CARRIER}\w*\s*(?:(?:{either('figures', 'users', 'takes')}|{POWER_NOUNS}|功率|上限|[:=])\s*)*$"
 )
 _CARRIER_BEHIND = deferred(rf"(?i)\s*(?:(?:on|in|for|auf|bei|en|sur|dans|pour|para)\s+)?{EACH_CARRIER}")
+_RAISED = deferred(rf"(?i)(?:{RAISES})\W.*{LEADS}\s*$")
+_CAPS = deferred(
+    rf"(?i)\b(?:{'|'.join(words_of('figures', 'bounds', 'caps'))})|m[aá]x|上限|限速|封顶|最高|"
+    rf"{any_word('figures', 'lifted', 'ceilings')}|{any_word('figures', 'bounds', 'caps_of')}"
+)
 _SURE, _PERHAPS = 0.8, 0.2
 _ONCE, _MOST_POWERS, _HARDLY = ("max_power_w", "circuit_power_w", "subcarrier_max_power_w"), 4, 0.01
 
@@ -227,6 +233,9 @@ def _as_bounded(
     if figure.kind == "power" and not carriers:
         return moved(chances, ("subcarrier_max_power_w",), "max_power_w")
     bound = BOUNDED.get(figure.comparator or "") if figure.kind == "rate" else None
+    ahead = plain[clause_start(plain, figure.phrase_start, beside[0]) : figure.phrase_start]
+    if figure.kind == "rate" and figure.comparator is None and _RAISED.search(ahead) and _CAPS.search(ahead) is None:
+        bound = "min_rate_bps"
     return chances if bound is None else moved(chances, ("min_rate_bps", "max_rate_bps", "both"), bound)
 
 

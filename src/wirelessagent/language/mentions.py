@@ -322,6 +322,9 @@ def _number(word: str) -> int | None:
     return None if value is None else int(value)
 
 
+_COUNTED_AGAIN = deferred(rf"号?这?(?P<count>[两二三四五六七八九十])[个位名](?:{ZH_NOUN})?")
+
+
 def merged(plain: str, found: Sequence[Mention]) -> list[Mention]:
     """Neighbours that an "and" or a "to" joins made one: "user 3 and user 5", "UE 1 to UE 4"."""
     merged: list[Mention] = []
@@ -341,7 +344,15 @@ def merged(plain: str, found: Sequence[Mention]) -> list[Mention]:
         else:
             users = tuple(dict.fromkeys([*last.users, *between, *mention.users]))
             merged[-1] = Mention(role="named", users=users, start=last.start, end=mention.end)
-    return _but_for(plain, _distributed(plain, [part for mention in merged for part in _parted(plain, mention)]))
+    parted = [_counted(plain, part) for mention in merged for part in _parted(plain, mention)]
+    return _but_for(plain, _distributed(plain, parted))
+
+
+def _counted(plain: str, mention: Mention) -> Mention:
+    """Somebody with the words that count them once more: "3、5、6三个用户"."""
+    again = _COUNTED_AGAIN.match(plain, mention.end) if len(mention.users) > 1 else None
+    as_many = again is not None and _number(again["count"]) == len(mention.users)
+    return replace(mention, end=again.end()) if again is not None and as_many else mention
 
 
 def _but_for(plain: str, found: Sequence[Mention]) -> list[Mention]:

@@ -11,6 +11,7 @@ from wirelessagent.language import goals
 from wirelessagent.language.as_meant import as_meant, hesitating, taking_back
 from wirelessagent.language.constraints import read_constraints
 from wirelessagent.language.goals import Goal
+from wirelessagent.language.intent import LISTS_OF_USERS
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.moods import classes_in
 from wirelessagent.language.numerals import numbers
@@ -190,30 +191,32 @@ class Sentence:
     def without_what_it_tells(self) -> Sentence:
         """An order without the sentences beside that only tell or ask: "Last night user 3 was slow. Max rate."
 
-        It stays whole where the rest is no order, or means something else by itself: "… Give him 2 Mbit/s."
+        It stays whole where the rest is no order, or means something else by itself, as "… Give him 2 Mbit/s"; and
+        where it names no aim of its own, or not all limits that are told: "We are granted 12 W. Max rate."
         """
         spans = sentences(self.text)
-        told = [span for span in spans if self._only_tells(span)] if len(spans) > 1 else []
+        parts = {span: Sentence(self.text[slice(*span)], self._own, names=self._names) for span in spans[1:] and spans}
+        told = [span for span, part in parts.items() if part.only_tells]
         if not told or len(told) == len(spans):
             return self
         rest, whole = self._without(told), self.reading
-        refers = bool(whole.named) and not rest.reading.named
+        figures = {each.kind for span in told for each in parts[span].quantities}
+        limits = {name for span in told for name in parts[span].reading.values if name not in LISTS_OF_USERS}
+        aims = any(parts[span].goal.verdict != "none" for span in told)
+        stated = figures <= {each.kind for each in rest.quantities} and limits <= rest.reading.values.keys()
+        refers = (bool(whole.named) and not rest.reading.named) or (aims and rest.goal.verdict == "none")
         same = all(mark in whole.marks for mark in rest.reading.marks) and (whole.doubts or not rest.reading.doubts)
-        if refers or not same or not rest.chances.is_order:
+        if refers or not (stated and same and rest.chances.is_order):
             return self
-        rest.reading.not_used += [self.text[slice(*span)].strip() for span in told if self._has_figures(span)]
+        rest.reading.not_used += [self.text[slice(*span)].strip() for span in told if parts[span].quantities]
         return rest
 
-    def _only_tells(self, span: Span) -> bool:
-        sentence = Sentence(self.text[slice(*span)], self._own, names=self._names)
-        if sum(word.said.isalnum() for word in sentence.words) < _FEWEST_WORDS:  # "User 7? Not served."
-            return False
-        chances = sentence.chances
-        least = _TELLS_FIGURES if self._has_figures(span) else _TELLS
-        return chances.order < least and (chances.is_told or chances.asks)
-
-    def _has_figures(self, span: Span) -> bool:
-        return any(span[0] <= start < span[1] for start, _, mark in self._marked if mark != "@user")
+    @property
+    def only_tells(self) -> bool:
+        """Whether it orders nothing by itself, and has words enough to say so: "User 7? Not served." has not."""
+        wordy = sum(word.said.isalnum() for word in self.words) >= _FEWEST_WORDS
+        least = _TELLS_FIGURES if self.quantities else _TELLS
+        return wordy and self.chances.order < least and (self.chances.is_told or self.chances.asks)
 
     def _without(self, gone: Sequence[Span]) -> Sentence:
         return Sentence(

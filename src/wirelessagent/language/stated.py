@@ -405,7 +405,8 @@ def take_counts(reading: Reading, recounted: Sequence[Span], allotted: Sequence[
         reading.counted.append(match.span())
         counts = [n for n in numbers(reading.plain) if not overlaps((n.start, n.end), measured)]
         alone = len(counts) == 1 and match.start() <= counts[0].start < match.end()  # not "3 of 8 users"
-        if (alone and counts[0].value == of_all) or _describes_all(reading, *match.span()):
+        another = alone and of_all and counts[0].value != of_all
+        if (alone and counts[0].value == of_all) or (not another and _describes_all(reading, *match.span())):
             reading.not_used.append(words)
         else:
             reading.doubt("not_understood" if CARRIERS.search(words) else "some_users", text=words)

@@ -18,7 +18,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.acts import Act, Aim, Drop, LeaveOut, Limit, Named, Suppose, Undo
+from wirelessagent.language.acts import Act, Aim, Drop, LeaveOut, Limit, Named, Scale, Suppose, Undo
 from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.conversation.anchors import Anchor, Anchored
 from wirelessagent.language.conversation.answers import speaks_of_applying
@@ -27,7 +27,7 @@ from wirelessagent.language.conversation.possible import Change, Effect, Possibl
 from wirelessagent.language.conversation.signs import Read, Signs, block_places, place_of
 from wirelessagent.language.guard import asking_whether, guarded, stranger
 from wirelessagent.language.intent import Intent
-from wirelessagent.language.moods import classes_in, is_denied, lifted_in, may_be_lifted
+from wirelessagent.language.moods import classes_in, is_denied, lifted_in, may_be_lifted, named_in
 from wirelessagent.language.offline import NAME as OFFLINE
 from wirelessagent.language.request import changed, constraints_of
 from wirelessagent.language.sentence import BUILT_IN
@@ -234,6 +234,8 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
         sure = either > (SURER if intent.topic == "concept" else LIKELY if asked else SURE)
         supposed = dataclasses.replace(line.answer.question("what_if"), acts=(Suppose(acts=found.acts),))
         return (supposed if sure else intent), sure
+    if found.acts and (_may_be_of_another(possible) or _forgets_the_others(possible.line, found)):
+        return asking_whether(_done(line, possible, found), line.voice), False
     takes = _takes_away(read.acts)
     if share >= (NAMED if names_its_aim else SURER if denied else SURE if takes else AGREED):
         return intent, found.said == heard and share >= SURE
@@ -252,6 +254,20 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
         return done, done.kind != "clarify"
     unsure = bool(read.effect) or (intent.kind == "clarify" and found.share > LIKELY and not negated)
     return (asking_whether(meant, line.voice) if unsure else intent), False
+
+
+def _may_be_of_another(possible: Possible) -> bool:
+    """Whether a line scales what it does not name, behind one that said several: "1 Mbit/s each, 10 W" - "double it"."""
+    line, said = possible.line, {limit.kind for limit in possible.last} & {*possible.held}
+    scales = bool(line.figures) and all(figure.kind == "factor" for figure in line.figures)
+    names = any(anchor.kind in ("users", "others", "everybody") for anchor in line.anchors)
+    return scales and len(said) > 1 and not (names or speaks_of(line.plain) or named_in(line.plain))
+
+
+def _forgets_the_others(line: Anchored, found: Weighed) -> bool:
+    """Whether a line names the others, and a figure that it is taken for is none of theirs: "plus 1 W for the rest"."""
+    others = {anchor for anchor in line.anchors if anchor.kind == "others"}
+    return bool(others) and others.isdisjoint(found.used) and any(isinstance(act, Limit | Scale) for act in found.acts)
 
 
 def _takes_away(acts: Iterable[Act]) -> bool:
