@@ -149,3 +149,16 @@ def test_a_number_word_has_its_accent() -> None:
     held = talked_into("kleinste Leistung, 200 kbit/s für alle", "Nutzer 2 braucht 300 kbit/s", "zwei genauso")[0]
     assert held == {"min_rate_bps": {"all": 2e5, "2": 3e5}}
     assert talked_into("höchste Gesamtrate, 9 W", "mach fünf draus")[0] == {"max_power_w": 5.0}
+
+
+@pytest.mark.parametrize("said", ["double it", "verdoppeln", "duplícalo", "翻倍"])
+def test_what_may_be_scaled_is_asked_where_a_line_said_several_limits(said: str) -> None:
+    held, turns = talked_into("highest total rate, at most 5 W, at least 100 kbit/s each", said)
+    assert (held, turns[-1].stage) == ({"max_power_w": 5.0, "min_rate_bps": 1e5}, "asked")
+
+
+def test_more_for_the_others_is_no_more_for_who_was_named_last() -> None:
+    held, turns = talked_into(
+        "highest total rate", "user 3 at least 3 Mbit/s", "plus 500 kbit/s for each of the others"
+    )
+    assert (held, turns[-1].stage) == ({"min_rate_bps": {"3": 3e6}}, "asked")

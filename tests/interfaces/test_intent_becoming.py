@@ -37,7 +37,17 @@ def test_what_a_figure_was_before_is_no_limit(text: str, values: dict[str, Any])
 
 
 @pytest.mark.parametrize(
-    "text", ["user 3 from 1 to 2 Mbit/s", "erhöhe die Rate von 3 auf 2 Mbit/s", "serve users from 1 to 4"]
+    "text",
+    [
+        "user 3 from 1 to 2 Mbit/s",
+        "erhöhe die Rate von 3 auf 2 Mbit/s",
+        "serve users from 1 to 4",
+        "everyone from 500 kbit/s up to 3 Mbit/s",
+        "每个设备从1兆到2兆",
+        "reduce the power from 10 W to 20 W",
+        "change user 3 to a rate from 1 to 2 Mbit/s",
+        "pasa una tasa de 2 Mbit/s a 3",
+    ],
 )
 def test_ranges_and_users_are_left_as_they_are(text: str) -> None:
     assert as_meant(text) == text

@@ -74,3 +74,16 @@ def test_a_sentence_that_the_next_refers_to_stays() -> None:
     intent = understood("Le 5 se plaignait encore à midi. Garantis-lui 2 Mbit/s et maximise le débit total.", CELL,
                         OfflineRecogniser())  # fmt: skip
     assert intent.kind != "allocate" or intent.constraints == {"min_rate_bps": {"5": 2e6}}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Pon la máxima eficiencia energética. O mejor no, retiro lo dicho.",
+        "The boss ordered the highest total rate. Power at most 12 W.",
+        "Die 1 ist seit heute früh in Wartung, sagt der Kollege. Lass sie weg und verteil proportional fair.",
+        "Dicen que el 2 ya no vive aquí. Exclúyelo y reparte con equidad proporcional.",
+    ],
+)
+def test_what_is_taken_back_or_referred_to_is_asked_about(text: str) -> None:
+    assert understood(text, CELL, OfflineRecogniser()).kind == "clarify"

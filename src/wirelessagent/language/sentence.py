@@ -59,6 +59,10 @@ _OF_AIMS = (
 """Concepts whose words say what is wanted, and not whether."""
 _TELLS, _TELLS_FIGURES = 0.5, 0.2
 """How unlikely a sentence has to order something by itself to be left aside, and one that has figures."""
+_UNLIKELY, _HARDLY = 0.2, 0.12
+"""How unlikely a text is to order something as a whole, to be asked about whatever a part of it says: one that ends
+with what only tells, and one that begins with it.
+"""
 _FEWEST_WORDS = 3
 """Beside figures and users, of what tells something by itself."""
 _AND, _AND_LAST = deferred(rf"(?i)\b(?:{AND})\b"), deferred(rf"(?i)\b(?:{AND})\s*$")
@@ -197,14 +201,18 @@ class Sentence:
         spans = sentences(self.text)
         parts = {span: Sentence(self.text[slice(*span)], self._own, names=self._names) for span in spans[1:] and spans}
         told = [span for span, part in parts.items() if part.only_tells]
-        if not told or len(told) == len(spans):
+        taken_back = bool(told) and self.chances.order < (_UNLIKELY if told[-1] == spans[-1] else _HARDLY)
+        if not told or len(told) == len(spans) or taken_back:  # "Max rate. No, forget what I said."
             return self
         rest, whole = self._without(told), self.reading
         figures = {each.kind for span in told for each in parts[span].quantities}
         limits = {name for span in told for name in parts[span].reading.values if name not in LISTS_OF_USERS}
         aims = any(parts[span].goal.verdict != "none" for span in told)
         stated = figures <= {each.kind for each in rest.quantities} and limits <= rest.reading.values.keys()
-        refers = (bool(whole.named) and not rest.reading.named) or (aims and rest.goal.verdict == "none")
+        bare = [number.start for number in numbers(self.plain) if number.form == "digits"]
+        bare = [place for place in bare if not any(start <= place < end for start, end, _ in self._marked)]
+        counted = any(start <= place < end for start, end in told for place in bare)  # "Die 1 ist weg. Lass sie aus."
+        refers = ((whole.named or counted) and not rest.reading.named) or (aims and rest.goal.verdict == "none")
         same = all(mark in whole.marks for mark in rest.reading.marks) and (whole.doubts or not rest.reading.doubts)
         if refers or not (stated and same and rest.chances.is_order):
             return self

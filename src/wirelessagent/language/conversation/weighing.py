@@ -257,7 +257,7 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
 
 
 def _may_be_of_another(possible: Possible) -> bool:
-    """Whether a line scales what it does not name, behind one that said several: "1 Mbit/s each, 10 W" - "double it"."""
+    """Whether a line scales what it does not name, behind one that said several: "double it"."""
     line, said = possible.line, {limit.kind for limit in possible.last} & {*possible.held}
     scales = bool(line.figures) and all(figure.kind == "factor" for figure in line.figures)
     names = any(anchor.kind in ("users", "others", "everybody") for anchor in line.anchors)

@@ -8,9 +8,9 @@ are known. Labels are objectives, kinds of intents, and topics of questions and 
 or a report, all that orders nothing now, and "order" is what orders something that nobody wrote down. They were written
 for training, by authors who saw no test set; those in ``<language>_near.tsv`` so that what orders something and what
 does not are easily mistaken for each other, those in ``<language>_dictated.tsv`` as well, as they are dictated among
-small talk; those in ``<language>_turned.tsv`` so that what means what its figures and
-users look like and what does not are, too: groups of orders, and between them what has to be asked about, "clarify"
-without constraints.
+small talk, and those in ``<language>_told.tsv``, beside what is only told; those in ``<language>_turned.tsv`` so that
+what means what its figures and users look like and what does not are, too: groups of orders, and between them what has
+to be asked about, "clarify" without constraints.
 
 A line of the frames is "order" or "none" and a sentence with ``{}`` in the place of its wish.
 
