@@ -59,10 +59,8 @@ _OF_AIMS = (
 """Concepts whose words say what is wanted, and not whether."""
 _TELLS, _TELLS_FIGURES = 0.5, 0.2
 """How unlikely a sentence has to order something by itself to be left aside, and one that has figures."""
-_UNLIKELY, _HARDLY = 0.2, 0.12
-"""How unlikely a text is to order something as a whole, to be asked about whatever a part of it says: one that ends
-with what only tells, and one that begins with it.
-"""
+_HARDLY = 0.12
+"""How unlikely a text is to order something as a whole, to be asked about whatever a part of it says."""
 _FEWEST_WORDS = 3
 """Beside figures and users, of what tells something by itself."""
 _AND, _AND_LAST = deferred(rf"(?i)\b(?:{AND})\b"), deferred(rf"(?i)\b(?:{AND})\s*$")
@@ -193,7 +191,7 @@ class Sentence:
         return self._without(gone) if gone else self
 
     def without_what_it_tells(self) -> Sentence:
-        """An order without the sentences beside that only tell or ask: "Last night user 3 was slow. Max rate."
+        """An order without the sentences ahead that only tell or ask: "Last night user 3 was slow. Max rate."
 
         It stays whole where the rest is no order, or means something else by itself, as "… Give him 2 Mbit/s"; and
         where it names no aim of its own, or not all limits that are told: "We are granted 12 W. Max rate."
@@ -201,8 +199,7 @@ class Sentence:
         spans = sentences(self.text)
         parts = {span: Sentence(self.text[slice(*span)], self._own, names=self._names) for span in spans[1:] and spans}
         told = [span for span, part in parts.items() if part.only_tells]
-        taken_back = bool(told) and self.chances.order < (_UNLIKELY if told[-1] == spans[-1] else _HARDLY)
-        if not told or len(told) == len(spans) or taken_back:  # "Max rate. No, forget what I said."
+        if not told or told[-1] == spans[-1] or self.chances.order < _HARDLY:  # "Max rate. Disregard what I said."
             return self
         rest, whole = self._without(told), self.reading
         figures = {each.kind for span in told for each in parts[span].quantities}
