@@ -79,6 +79,7 @@ def test_a_sentence_that_the_next_refers_to_stays() -> None:
 @pytest.mark.parametrize(
     "text",
     [
+        "Last night user 4 had 1 Mbit/s and it should stay so. Max rate, user 3 at least 2 Mbit/s.",
         "Pon la máxima eficiencia energética. O mejor no, retiro lo dicho.",
         "The boss ordered the highest total rate. Power at most 12 W.",
         "Die 1 ist seit heute früh in Wartung, sagt der Kollege. Lass sie weg und verteil proportional fair.",

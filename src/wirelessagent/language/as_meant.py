@@ -14,6 +14,7 @@ import re
 from collections.abc import Iterator, Mapping
 from decimal import Decimal
 
+from wirelessagent.language.comparators import WITH
 from wirelessagent.language.mentions import (
     ANY_NOUN,
     GIVEN_TO,
@@ -123,7 +124,11 @@ _LED_AHEAD = deferred(rf"(?i){LEADS}\s*$")
 _WAS = deferred(rf"(?i)\s*(?:{_FROM}|(?P<of>{_FROM_OR_OF}))\s*$")
 _CHANGED = deferred(rf"(?i)(?P<up>{RAISES})|(?P<down>{_LOWERS})|{_OTHERWISE}")
 _BEFORE = deferred(rf"(?i)\s*[,(\uff08]\s*(?:{either('figures', 'becoming', 'before')})\s*:?\s*$")
-_LEADS_ON = deferred(rf"(?i){LEADS}")
+_LEADS_ON = deferred(rf"(?i){LEADS}|{WITH}|{either('figures', 'becoming', 'may')}")
+_KEEPS = deferred(  # what forbids a change, or allows several: "don't lower it from 2 to 1 W", "may change from 1 to 2"
+    rf"(?i){either('moods', 'negation', 'clause')}|{either('figures', 'bounds', 'forbids')}|"
+    rf"{either('figures', 'becoming', 'may')}"
+)
 
 
 def without_corrected(text: str) -> str:
@@ -231,6 +236,7 @@ def _was_before(plain: str) -> Iterator[tuple[int, int, str]]:
         alone = its is None and "rate" in kinds and not any(start <= each.start < one.start for each in found)
         of = was is not None and was["of"] is not None
         ranged = was is not None and _LEADS_ON.search(plain, verb.end(), was.start()) is not None
+        ranged |= _KEEPS.search(plain, start, verb.start()) is not None
         if was and led and fits and not ranged and not (of and alone and (one.value or 0) < MOST_USERS):
             if unit is not None:
                 yield was.start(), led.start(), ""

@@ -48,6 +48,7 @@ _CARRIER_AHEAD = deferred(
     rf"(?i){EACH_CARRIER}\w*\s*(?:(?:{either('figures', 'users', 'takes')}|{POWER_NOUNS}|功率|上限|[:=])\s*)*$"
 )
 _CARRIER_BEHIND = deferred(rf"(?i)\s*(?:(?:on|in|for|auf|bei|en|sur|dans|pour|para)\s+)?{EACH_CARRIER}")
+_GIVES = deferred(rf"(?i){either('figures', 'bounds', 'gives')}")
 _RAISED = deferred(rf"(?i)(?:{RAISES})\W.*{LEADS}\s*$")
 _CAPS = deferred(
     rf"(?i)\b(?:{'|'.join(words_of('figures', 'bounds', 'caps'))})|m[aá]x|上限|限速|封顶|最高|"
@@ -140,7 +141,10 @@ class Judged:
             same = (each.start for each in behind if each.start in times and each.comparator is None)
             means |= dict.fromkeys(same, means[first.start])
         for first, *behind in self._series:  # "cap 1 at 1.5, 4 at 2 and 6 at 2.5 Mbit/s": one bound
-            alone, last = [first, *itertools.takewhile(self._has_no_bound, behind)], [first, *behind][-1]
+            new = next(
+                (n for n, pair in enumerate(itertools.pairwise([first, *behind])) if self._is_set_anew(*pair)), None
+            )
+            alone, last = [first, *itertools.takewhile(self._has_no_bound, behind[:new])], [first, *behind][-1]
             if first.comparator is None and len(alone) > len(behind):
                 means |= dict.fromkeys((each.start for each in alone), jointly([means[each.start] for each in alone]))
             bound = BOUNDED.get(first.comparator or "") if first.phrase_start < first.start else None
@@ -176,6 +180,10 @@ class Judged:
             again = _AGAIN.search(words) is not None and not speaks_of(words)  # not "yes, transmit 5 W"
             if one.value == other.value and again and may_be and _ENDED.match(plain, other.phrase_end):
                 yield other.start, one.start
+
+    def _is_set_anew(self, one: Quantity, other: Quantity) -> bool:
+        """Whether a verb between two figures begins another order: "cap user 1 at 1 Mbit/s give user 3 3 Mbit/s"."""
+        return _GIVES.search(self._look.plain, one.end, other.start) is not None
 
     def _has_no_bound(self, figure: Quantity) -> bool:
         """Whether a figure leaves open how it bounds: "user 2 1 Mbit/s guaranteed" does not."""

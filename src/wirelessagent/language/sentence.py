@@ -209,7 +209,8 @@ class Sentence:
         bare = [number.start for number in numbers(self.plain) if number.form == "digits"]
         bare = [place for place in bare if not any(start <= place < end for start, end, _ in self._marked)]
         counted = any(start <= place < end for start, end in told for place in bare)  # "Die 1 ist weg. Lass sie aus."
-        refers = ((whole.named or counted) and not rest.reading.named) or (aims and rest.goal.verdict == "none")
+        others = not {*whole.named} <= {*rest.reading.named}  # of whom more is told, or who are meant by a pronoun
+        refers = others or (counted and not rest.reading.named) or (aims and rest.goal.verdict == "none")
         same = all(mark in whole.marks for mark in rest.reading.marks) and (whole.doubts or not rest.reading.doubts)
         if refers or not (stated and same and rest.chances.is_order):
             return self

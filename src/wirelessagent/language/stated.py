@@ -403,6 +403,9 @@ def take_counts(reading: Reading, recounted: Sequence[Span], allotted: Sequence[
             continue
         words = reading.text[slice(*match.span())]
         reading.counted.append(match.span())
+        if any(end == match.start() for _, end in allotted):  # "3、5、6两个用户"
+            reading.doubt("some_users", text=words)
+            continue
         counts = [n for n in numbers(reading.plain) if not overlaps((n.start, n.end), measured)]
         alone = len(counts) == 1 and match.start() <= counts[0].start < match.end()  # not "3 of 8 users"
         another = alone and of_all and counts[0].value != of_all
