@@ -93,14 +93,19 @@ class Chances:
     faithful: float
 
     @property
+    def likeliest(self) -> str:
+        """The likeliest kind."""
+        return max(self.kinds, key=lambda kind: self.kinds[kind])
+
+    @property
     def is_told(self) -> bool:
         """Whether it is likeliest to tell of something that nobody orders, nor asks."""
-        return max(self.kinds, key=lambda kind: self.kinds[kind]) == TOLD
+        return self.likeliest == TOLD
 
     @property
     def asks(self) -> bool:
         """Whether it is likeliest to ask something."""
-        return max(self.kinds, key=lambda kind: self.kinds[kind]).startswith("question")
+        return self.likeliest.startswith("question")
 
     @property
     def is_order(self) -> bool:
