@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from wirelessagent.language.as_meant import taking_back
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, RATES
 from wirelessagent.language.judged import BOUNDED, Judged
 from wirelessagent.language.mentions import (
     ANY_NOUN,
@@ -35,7 +35,6 @@ from wirelessagent.language.word_tables import any_word, deferred, either
 
 _SURE_OF_A_ROLE, _SURE_OF_SILENCE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.9, 0.5, 0.45
 _SAID = 0.4
-RATES = ("min_rate_bps", "max_rate_bps")
 _ADDS = Phrases(either("figures", "users", "adds"))
 _NOT_AHEAD = deferred(rf"(?i)(?:{either('figures', 'one', 'not_who')})\s*(?:{GIVEN_TO}\s*)*$")
 _BUT_BEHIND = deferred(rf"(?i)\s*号?(?:{either('figures', 'one', 'but_who')})\s*(?:{GIVEN_TO}\s*)*{ANY_NOUN}")

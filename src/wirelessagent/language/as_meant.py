@@ -25,6 +25,7 @@ from wirelessagent.language.mentions import (
 )
 from wirelessagent.language.number_words import whole
 from wirelessagent.language.numerals import NUMBERED, Number, factors, numbers
+from wirelessagent.language.quantities import Measure, measures
 from wirelessagent.language.shares import worked_out
 from wirelessagent.language.text import (
     AND,
@@ -175,13 +176,12 @@ def hesitating(plain: str) -> Iterator[Span]:
     >>> list(hesitating("30 W, uh, 32")), list(hesitating("30 W, uh, 30"))
     ([(6, 9)], [])
     """
-    at, ends = {number.start: number for number in numbers(plain)}, dict[int, Number]()
-    for number in at.values():
-        unit = unit_at(plain, number.end)
-        ends[unit.end if unit is not None else number.end] = number
+    found = measures(plain)
     for match in _HESITATES.finditer(plain):
-        ahead, item = ends.get(len(plain[: match.start()].rstrip(" ,.\uff0c…"))), at.get(match.start("item"))
-        if ahead is not None and (item is None or item.value != ahead.value):
+        ahead = len(plain[: match.start()].rstrip(" ,.\uff0c…"))
+        ones = [each.number.value for each in found if each.end == ahead]
+        others = [each.number.value for each in found if each.start == match.start("item")]
+        if ones and ones != others:
             yield match.span()
 
 
@@ -204,46 +204,56 @@ def turns(plain: str) -> list[Span]:
 
 def _not_meant(plain: str) -> Iterator[tuple[int, int, str]]:
     """Figures that others are said to stand for: "15 W, and not 14", "11 W statt 10 W"."""
-    for one, other in itertools.pairwise(numbers(plain)):
-        its, unit = unit_at(plain, one.end), unit_at(plain, other.end)
-        said = _INSTEAD.fullmatch(plain, its.end, other.start) if its is not None else None
-        end = other.end if unit is None else unit.end
-        alike = its is not None and (unit is None or unit.kind == its.kind)
-        parted = said is None or "," in said[0] or "\uff0c" in said[0] or said["instead"].strip() not in _DENIES
-        if said is not None and alike and parted and _GOES_ON.match(plain, end):  # but "100 mW no 90 mW" corrects
-            yield said.start("instead"), end, ""
+    for one, other in itertools.pairwise(measures(plain)):
+        said = _INSTEAD.fullmatch(plain, one.end, other.start)
+        alike = one.unit is not None and (other.unit is None or other.unit.kind == one.unit.kind)
+        if said is None or not alike:
+            continue
+        parted = "," in said[0] or "\uff0c" in said[0] or said["instead"].strip() not in _DENIES
+        if parted and _GOES_ON.match(plain, other.end):  # but "100 mW no 90 mW" corrects
+            yield said.start("instead"), other.end, ""
 
 
 def _was_before(plain: str) -> Iterator[tuple[int, int, str]]:
-    """What a figure is changed from: "raise the floor from 1 to 2 Mbit/s", "erhöhe auf 2 Mbit/s von 500 kbit/s".
-
-    Behind a word for "from" that is one for "of", too, a number may be somebody's: "die Rate von 3 auf 2 Mbit/s".
-    """
-    found = list(numbers(plain))
-    for one, other in itertools.pairwise(found):
-        its, unit = unit_at(plain, one.end), unit_at(plain, other.end)
-        first, last = (each.end if each is not None else number.end for each, number in ((its, one), (unit, other)))
-        start, kinds = clause_start(plain, one.start), {each.kind for each in (its, unit) if each is not None}
-        verb, aside = _CHANGED.search(plain, start, clause_end(plain, last)), _BEFORE.search(plain, first, other.start)
-        if aside and its and unit and its.kind == unit.kind:  # "1 Mbit/s (before: 2 Mbit/s)"
-            yield aside.start(), last + (plain[last : last + 1] in ")\uff09"), ""
-        if len(kinds) != 1 or verb is None:
+    """What a figure is changed from: "raise the floor from 1 to 2 Mbit/s", "erhöhe auf 2 Mbit/s von 500 kbit/s"."""
+    last = 0
+    for one, other in itertools.pairwise(measures(plain)):
+        start, ahead, last = clause_start(plain, one.start), last, one.end
+        units = [each.unit for each in (one, other) if each.unit is not None]
+        if len({unit.kind for unit in units}) != 1:
             continue
-        was, led = _WAS.search(plain, start, one.start), _LED.fullmatch(plain, first, other.start)
-        values = [(each or its or unit, number) for each, number in ((its, one), (unit, other))]
-        old, new = (each.value(number.value or Decimal(0)) for each, number in values if each is not None)
+        aside = _BEFORE.search(plain, one.end, other.start)
+        if aside is not None and len(units) > 1:  # "1 Mbit/s (before: 2 Mbit/s)"
+            yield aside.start(), other.end + (plain[other.end : other.end + 1] in ")\uff09"), ""
+        verb = _CHANGED.search(plain, start, clause_end(plain, other.end))
+        if verb is None:
+            continue
+        old, new = (units[0].value(each.number.value or Decimal(0)) if each.unit is None else each.value
+                    for each in (one, other))  # fmt: skip
         fits = {"up": old < new, "down": old > new}.get(verb.lastgroup or "", True)
-        alone = its is None and "rate" in kinds and not any(start <= each.start < one.start for each in found)
-        of = was is not None and was["of"] is not None
-        ranged = was is not None and _LEADS_ON.search(plain, verb.end(), was.start()) is not None
-        ranged |= _KEEPS.search(plain, start, verb.start()) is not None
-        if was and led and fits and not ranged and not (of and alone and (one.value or 0) < MOST_USERS):
-            if unit is not None:
-                yield was.start(), led.start(), ""
-            elif not of and _ENDED.match(plain, other.end):
-                yield was.start(), other.end, plain[led.start() : other.end] + plain[one.end : first]
-        elif its and unit and _LED_AHEAD.search(plain, start, one.start) and _WAS.fullmatch(plain, first, other.start):
-            yield first, last, ""
+        was, led = _WAS.search(plain, start, one.start), _LED.fullmatch(plain, one.end, other.start)
+        turned = _WAS.fullmatch(plain, one.end, other.start) and _LED_AHEAD.search(plain, start, one.start)
+        ranged = was is not None and _LEADS_ON.search(plain, max(ahead, verb.end()), was.start())
+        if was and led and fits and not (ranged or _KEEPS.search(plain, start, verb.start())):
+            yield from _from(plain, was, one, led, other, alone=ahead <= start)
+        elif turned and len(units) > 1:
+            yield one.end, other.end, ""
+
+
+def _from(
+    plain: str, was: re.Match[str], one: Measure, led: re.Match[str], other: Measure, *, alone: bool
+) -> Iterator[tuple[int, int, str]]:
+    """What stands behind a word for "from", and is ``led`` on to another figure.
+
+    Behind one that is a word for "of", too, the first number of a clause may be a user: "die Rate von 3 auf 2 Mbit/s".
+    """
+    rate = one.unit is None and other.unit is not None and other.unit.kind == "rate"
+    if was["of"] and alone and rate and (one.number.value or 0) < MOST_USERS:
+        return
+    if other.unit is not None:
+        yield was.start(), led.start(), ""
+    elif not was["of"] and _ENDED.match(plain, other.end):
+        yield was.start(), other.end, plain[led.start() : other.end] + plain[one.number.end : one.end]
 
 
 def _counted(plain: str) -> list[Number]:

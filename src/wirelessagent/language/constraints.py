@@ -11,9 +11,10 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from wirelessagent.language.allotments import RATES, Allotments, Target
+from wirelessagent.language.allotments import Allotments, Target
 from wirelessagent.language.as_meant import CHANGES, LEADS, turns
 from wirelessagent.language.comparators import WITH, nouns_of, speaks_of
+from wirelessagent.language.intent import RATES
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.mentions import GIVEN_TO
 from wirelessagent.language.moods import named_in
@@ -26,7 +27,7 @@ from wirelessagent.language.stated import (
     take_counts,
     take_multiples,
 )
-from wirelessagent.language.text import AND, Beside, Phrases, Span, clause_end, clause_start, overlaps, written_over
+from wirelessagent.language.text import AND, Beside, Phrases, Span, blanked, clause_end, clause_start, overlaps
 from wirelessagent.language.word_tables import any_word, deferred, either
 
 _STEP = Phrases(either("figures", "one", "watt_more"), marks="watt vatio 一瓦")
@@ -44,7 +45,7 @@ _SINGLY = Beside(
 _NEITHER = deferred(rf"(?i)(?:{either('figures', 'users', 'neither')})\s*$")
 _GIVEN = 0.5
 _LIMITS = (
-    "min_rate_bps", "max_rate_bps", "both", "max_power_w", "circuit_power_w", "subcarrier_max_power_w", "outage",
+    *RATES, "both", "max_power_w", "circuit_power_w", "subcarrier_max_power_w", "outage",
     "reliability", "share",
 )  # fmt: skip
 _ASKED = {
@@ -218,15 +219,13 @@ class _Reader:
             denied = target.mention and _NEITHER.search(self._reading.plain, 0, target.mention.start)
             if not target.sure or (denied and figure.comparator is None):  # "neither 3 nor 4 gets 1 Mbit/s"
                 return "whose_rate"
-            for name in ("min_rate_bps", "max_rate_bps") if role == "both" else (role,):
+            for name in RATES if role == "both" else (role,):
                 self._give(name, target, figure)
         return ""
 
     def _setting(self, figure: Quantity, role: str) -> Iterator[Span]:
         """Where words set a limit to a figure, and wish for nothing: "raise the minimum rate of user 3 to 2 Mbit/s"."""
-        plain = self._reading.plain
-        for each in self._judged.mentions:
-            plain = written_over(plain, each.start, each.end, "")
+        plain = blanked(self._reading.plain, ((each.start, each.end) for each in self._judged.mentions))
         start = clause_start(plain, figure.phrase_start)
         start = max([start, *(each.end for each in self._judged.figures if each.end <= figure.start)])
         nouns = [span for span, name in named_in(plain) if name == role]

@@ -29,7 +29,8 @@ EVERYBODY = "all"
 
 _CLOSE = 1e-9
 
-FIGURES_OF_USERS: tuple[str, ...] = ("min_rate_bps", "max_rate_bps", "weights")
+RATES: tuple[str, ...] = ("min_rate_bps", "max_rate_bps")
+FIGURES_OF_USERS: tuple[str, ...] = (*RATES, "weights")
 LISTS_OF_USERS: tuple[str, ...] = ("users", "leave_out")
 CONSTRAINTS: tuple[str, ...] = (
     "max_power_w", "min_rate_bps", "max_rate_bps", "circuit_power_w", "outage_probability", "weights", "users",
@@ -133,7 +134,7 @@ def _by_user(constraints: Mapping[str, Constraint]) -> dict[tuple[str, str], flo
         if isinstance(value, tuple):
             value = dict.fromkeys(value, 1.0)
         elif not isinstance(value, Mapping):
-            value = dict.fromkeys(everybody if name in ("min_rate_bps", "max_rate_bps") else (EVERYBODY,), value)
+            value = dict.fromkeys(everybody if name in RATES else (EVERYBODY,), value)
         figures |= {(name, user): figure for user, figure in value.items()}
     return figures
 

@@ -10,10 +10,12 @@ import itertools
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from typing import TypeAlias
 
 from wirelessagent.language.as_meant import LEADS, RAISES
 from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.figure_roles import answers, likely, shipped_roles
+from wirelessagent.language.intent import RATES
 from wirelessagent.language.mentions import EXCEPTED, GIVEN_TO, JOINT_WORDS, NOBODY, WHO, Mention
 from wirelessagent.language.number_roles import ITEMS, Numbers, everybody_named, jointly, moved, runs, series, shares
 from wirelessagent.language.numerals import Number, factors
@@ -56,6 +58,11 @@ _CAPS = deferred(
 )
 _SURE, _PERHAPS = 0.8, 0.2
 _ONCE, _MOST_POWERS, _HARDLY = ("max_power_w", "circuit_power_w", "subcarrier_max_power_w"), 4, 0.01
+
+_Means: TypeAlias = dict[int, Mapping[str, float]]
+"""By the place of a figure, how likely it has each role."""
+_Same: TypeAlias = tuple[Sequence[int], Mapping[str, float]]
+"""The places of figures, and how likely each of them has each role."""
 
 
 class Judged:
@@ -122,49 +129,69 @@ class Judged:
         chances = self.figure(index)
         return max(chances, key=lambda role: chances[role])
 
-    def _meanings(self) -> dict[int, Mapping[str, float]]:
-        """By place, how likely each figure has each role: those of a list have the same, and a cell has one limit."""
-        means: dict[int, Mapping[str, float]] = {}
-        carriers = CARRIERS.search(self._look.plain) is not None
-        for place, figure in enumerate(self._look.figures):
+    def _meanings(self) -> _Means:
+        """How likely each figure has each role; what those have that stand for the same kind of thing is found then."""
+        means: _Means = {}
+        for find in (self._of_each, self._of_lists, self._of_multiples, self._of_series, self._of_those_excepted,
+                     self._of_powers):  # fmt: skip
+            for starts, chances in find(means):
+                means |= dict.fromkeys(starts, chances)
+        return means
+
+    def _of_each(self, means: _Means) -> Iterator[_Same]:
+        carriers, figures = CARRIERS.search(self._look.plain) is not None, self._look.figures
+        for place, figure in enumerate(figures):
+            before = figures[place - 1].phrase_end if place else 0
+            next_ = next((each.phrase_start for each in figures[place + 1 :]), len(self._look.plain) + 1)
             chances = answers(figure.kind, self.view.figure(place))
-            before = self._look.figures[place - 1].phrase_end if place else 0
-            following = self._look.figures[place + 1 : place + 2]
-            next_ = following[0].phrase_start if following else len(self._look.plain) + 1
-            means[figure.start] = _as_bounded(self._look.plain, figure, chances, (before, next_), carriers=carriers)
+            yield [figure.start], _as_bounded(self._look.plain, figure, chances, (before, next_), carriers=carriers)
+
+    def _of_lists(self, means: _Means) -> Iterator[_Same]:
         for starts in self.lists:
             each = [means[start] for start in starts if start in means]
             if each:
-                means |= dict.fromkeys(starts, jointly(each))
+                yield starts, jointly(each)
+
+    def _of_multiples(self, means: _Means) -> Iterator[_Same]:
+        """Of a row, what doubles a figure ahead: "bride 6 à 1 Mbit/s, 1 au double"."""
         times = {factor.start for factor in factors(self._look.plain)}
-        for first, *behind in self._series:  # "bride 6 à 1 Mbit/s, 1 au double"
-            same = (each.start for each in behind if each.start in times and each.comparator is None)
-            means |= dict.fromkeys(same, means[first.start])
-        for first, *behind in self._series:  # "cap 1 at 1.5, 4 at 2 and 6 at 2.5 Mbit/s": one bound
-            new = next(
-                (n for n, pair in enumerate(itertools.pairwise([first, *behind])) if self._is_set_anew(*pair)), None
-            )
-            alone, last = [first, *itertools.takewhile(self._has_no_bound, behind[:new])], [first, *behind][-1]
-            if first.comparator is None and len(alone) > len(behind):
-                means |= dict.fromkeys((each.start for each in alone), jointly([means[each.start] for each in alone]))
+        for first, *behind in self._series:
+            yield [each.start for each in behind if each.start in times and not each.comparator], means[first.start]
+
+    def _of_series(self, means: _Means) -> Iterator[_Same]:
+        """One bound for all of a row: "cap 1 at 1.5, 4 at 2 and 6 at 2.5 Mbit/s"."""
+        plain = self._look.plain
+        for row in self._series:
+            first, *behind = row
+            new = next((n for n, pair in enumerate(itertools.pairwise(row)) if self._is_set_anew(*pair)), None)
+            alone = [first, *itertools.takewhile(self._has_no_bound, behind[:new])]
+            starts = [each.start for each in alone]
+            if first.comparator is None and alone == row:
+                yield starts, jointly([means[start] for start in starts])
             bound = BOUNDED.get(first.comparator or "") if first.phrase_start < first.start else None
-            plain = self._look.plain
-            headed = (name for name, head in _HEADS.items() if head.is_at(plain, first.start, last.end))
-            bound = next(headed, bound) if first.comparator is None else bound
+            if first.comparator is None:
+                bound = next(
+                    (name for name, head in _HEADS.items() if head.is_at(plain, first.start, row[-1].end)), None
+                )
             if bound is not None:  # not "2 Mbit/s max, user 3 1 Mbit/s"
-                chances = moved(means[first.start], ("min_rate_bps", "max_rate_bps", "both"), bound)
-                means |= dict.fromkeys((each.start for each in alone), chances)
+                yield starts, moved(means[first.start], (*RATES, "both"), bound)
+
+    def _of_those_excepted(self, means: _Means) -> Iterator[_Same]:
+        """What bounds all the others: "at most 2 Mbit/s, but for user 2, who is at 1 Mbit/s"."""
         for last, figure in itertools.pairwise(each for each in self._look.figures if each.kind == "rate"):
             open_ = figure.comparator is None and max(means[figure.start].values()) < _SURE
             if open_ and self._is_an_exception(last.end, figure.start):
-                means[figure.start] = jointly([means[last.start], means[figure.start]])
+                yield [figure.start], jointly([means[last.start], means[figure.start]])
+
+    def _of_powers(self, means: _Means) -> Iterator[_Same]:
+        """A cell has one limit of each kind, which may be said twice."""
         again = dict(self._said_again(means))
         powers = [each.start for each in self._look.figures if each.kind == "power" and each.start not in again]
         powers = powers[:_MOST_POWERS]
-        means |= dict(zip(powers, _each_once([means[start] for start in powers]), strict=True))
+        for start, chances in zip(powers, _each_once([means[start] for start in powers]), strict=True):
+            yield [start], chances
         for start, first in again.items():
-            means[start] = means[first]
-        return means
+            yield [start], means[first]
 
     def _is_an_exception(self, start: int, end: int) -> bool:
         """Whether a figure at the end is of somebody excepted: "at most 2 Mbit/s, but for user 2, who is at 1"."""
@@ -244,7 +271,7 @@ def _as_bounded(
     ahead = plain[clause_start(plain, figure.phrase_start, beside[0]) : figure.phrase_start]
     if figure.kind == "rate" and figure.comparator is None and _RAISED.search(ahead) and _CAPS.search(ahead) is None:
         bound = "min_rate_bps"
-    return chances if bound is None else moved(chances, ("min_rate_bps", "max_rate_bps", "both"), bound)
+    return chances if bound is None else moved(chances, (*RATES, "both"), bound)
 
 
 def _is_of_a_carrier(plain: str, figure: Quantity, beside: Span) -> bool:

@@ -42,11 +42,11 @@ from wirelessagent.language.text import (
     WORD_OR_SIGN,
     Phrases,
     Span,
+    blanked,
     clause_end,
     clause_start,
     is_within,
     overlaps,
-    replaced,
 )  # fmt: skip
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.word_tables import any_word, deferred, either, words_of
@@ -347,7 +347,7 @@ def jointly(chances: Sequence[Mapping[str, float]]) -> dict[str, float]:
 
 def series(plain: str, items: Sequence[_Item], named: Sequence[Span]) -> Iterator[list[_Item]]:
     """Items of rows that say of one user after the other the same: "cap 1 at 1.5, 4 at 2 and 6 at 2.5 Mbit/s"."""
-    apart = replaced(plain, sorted((start, end, "@" * (end - start)) for start, end in named))
+    apart = blanked(plain, named, "@")
     ends = {item.start: last.end for last, item in itertools.pairwise(items)}
     for each in runs(apart, items, _BESIDE):
         first = each[0].start  # a user stands ahead of it, and no figure of the same user between

@@ -23,6 +23,7 @@ from wirelessagent.language.text import (
     AND,
     WORD_OR_SIGN,
     Span,
+    blanked,
     clause_end,
     clause_start,
     clauses,
@@ -31,7 +32,6 @@ from wirelessagent.language.text import (
     overlaps,
     sentences,
     unaccented,
-    written_over,
 )
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import (
@@ -73,9 +73,7 @@ class Sentence:
         self, text: str, own: tuple[OwnWords, ...], *, names: Sequence[str] = (), max_power_w: float = 20.0,
         gone: Sequence[Span] = (),
     ) -> None:  # fmt: skip
-        said = as_meant(text)
-        for start, end in gone:
-            text, said = (written_over(each, start, end, "") for each in (text, said))
+        text, said = blanked(text, gone), blanked(as_meant(text), gone)
         self.text, self.plain, self.language, self._gone = text, normalise(said), language_of(text), gone
         self._own, self._names, self._max_power_w, self.quantities = own, names, max_power_w, parse_quantities(said)
         self.reading: Reading = read_constraints(
@@ -196,15 +194,17 @@ class Sentence:
         It stays whole where the rest is no order, or means something else by itself, as "… Give him 2 Mbit/s"; and
         where it names no aim of its own, or not all limits that are told: "We are granted 12 W. Max rate."
         """
-        spans = sentences(self.text)
-        parts = {span: Sentence(self.text[slice(*span)], self._own, names=self._names) for span in spans[1:] and spans}
-        told = [span for span, part in parts.items() if part.only_tells]
-        if not told or told[-1] == spans[-1] or self.chances.order < _HARDLY:  # "Max rate. Disregard what I said."
+        *ahead, last = sentences(self.text) or [(0, 0)]
+        doubtful = not ahead or self.chances.order < _HARDLY
+        if doubtful or self._part(last).only_tells:  # "Max rate. Disregard what I said."
             return self
-        rest, whole = self._without(told), self.reading
-        figures = {each.kind for span in told for each in parts[span].quantities}
-        limits = {name for span in told for name in parts[span].reading.values if name not in LISTS_OF_USERS}
-        aims = any(parts[span].goal.verdict != "none" for span in told)
+        told = {span: part for span in ahead for part in [self._part(span)] if part.only_tells}
+        if not told:
+            return self
+        rest, whole = self._without([*told]), self.reading
+        figures = {each.kind for part in told.values() for each in part.quantities}
+        limits = {name for part in told.values() for name in part.reading.values if name not in LISTS_OF_USERS}
+        aims = any(part.goal.verdict != "none" for part in told.values())
         stated = figures <= {each.kind for each in rest.quantities} and limits <= rest.reading.values.keys()
         bare = [number.start for number in numbers(self.plain) if number.form == "digits"]
         bare = [place for place in bare if not any(start <= place < end for start, end, _ in self._marked)]
@@ -214,8 +214,11 @@ class Sentence:
         same = all(mark in whole.marks for mark in rest.reading.marks) and (whole.doubts or not rest.reading.doubts)
         if refers or not (stated and same and rest.chances.is_order):
             return self
-        rest.reading.not_used += [self.text[slice(*span)].strip() for span in told if parts[span].quantities]
+        rest.reading.not_used += [part.text.strip() for part in told.values() if part.quantities]
         return rest
+
+    def _part(self, span: Span) -> Sentence:
+        return Sentence(self.text[slice(*span)], self._own, names=self._names)
 
     @property
     def only_tells(self) -> bool:

@@ -112,6 +112,17 @@ def written_over(text: str, start: int, end: int, instead: str) -> str:
     return text[:start] + instead.rjust(end - start) + text[end:]
 
 
+def blanked(text: str, spans: Iterable[Span], sign: str = " ") -> str:
+    """A text with nothing but a sign in spans: all else stays at its place.
+
+    >>> blanked("user 3 gets 1 W", [(0, 6)], "@")
+    '@@@@@@ gets 1 W'
+    """
+    for start, end in spans:
+        text = text[:start] + sign * (end - start) + text[end:]
+    return text
+
+
 def overlaps(span: Span, others: Iterable[Span]) -> bool:
     """Whether a span shares a character with any of the others.
 

@@ -18,8 +18,7 @@ from typing import Literal, TypeAlias
 
 from wirelessagent.language import moods
 from wirelessagent.language.conversation.line import NAME, Line, has, is_all
-from wirelessagent.language.conversation.possible import RATES
-from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Intent
+from wirelessagent.language.intent import COMMANDS, EVERYBODY, RATES, Constraint, Intent
 from wirelessagent.language.numerals import too_many_figures
 from wirelessagent.language.recogniser import Context, Question
 from wirelessagent.language.request import merged, users_in

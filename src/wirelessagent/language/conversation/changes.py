@@ -14,8 +14,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from wirelessagent.language.acts import Act, Aim, Drop, Everybody, LeaveOut, Limit, Named, Others, Scale, Serve, Undo
 from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.conversation.anchors import Anchor
-from wirelessagent.language.conversation.possible import LIMITS, POWERS, RATES, Change, Group, Possible, in_its_unit
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS
+from wirelessagent.language.conversation.possible import LIMITS, POWERS, Change, Group, Possible, in_its_unit
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, RATES
 from wirelessagent.language.moods import may_be_lifted, named_in
 from wirelessagent.language.request import Key, acts_between, changed, with_the_assumed
 from wirelessagent.language.sentence import BUILT_IN

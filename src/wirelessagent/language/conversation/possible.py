@@ -10,13 +10,13 @@ from typing import TypeAlias
 
 from wirelessagent.language.acts import Act, Aim, Drop, Everybody, Forget, Limit, Named, Others, Scale, Suppose, Undo
 from wirelessagent.language.conversation.anchors import Anchor, Anchored
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, is_allowed
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, RATES, is_allowed
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.request import Key, Request, assuming, changed, figures_of, numbered, with_the_assumed
 from wirelessagent.model.units import human
 
-RATES, POWERS = ("min_rate_bps", "max_rate_bps"), ("max_power_w", "subcarrier_max_power_w", "circuit_power_w")
+POWERS = ("max_power_w", "subcarrier_max_power_w", "circuit_power_w")
 LIMITS = (*FIGURES_OF_USERS, *POWERS, "outage_probability", "resource_block_group_size")
 _FEW, _EARLIER, _LISTED = 20.0, 2, 4
 _WITH_UNIT = ("rate", "power")

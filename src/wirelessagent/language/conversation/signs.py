@@ -19,9 +19,9 @@ from wirelessagent.language.acts import Act, Aim, Suppose, Undo
 from wirelessagent.language.conversation.anchors import Anchor
 from wirelessagent.language.conversation.changes import changes_of
 from wirelessagent.language.conversation.line import NAME, Line
-from wirelessagent.language.conversation.possible import RATES, Change, Effect, Possible
+from wirelessagent.language.conversation.possible import Change, Effect, Possible
 from wirelessagent.language.figure_roles import answers
-from wirelessagent.language.intent import Intent, acts_of, stated
+from wirelessagent.language.intent import RATES, Intent, acts_of, stated
 from wirelessagent.language.moods import classes_in
 from wirelessagent.language.number_roles import first_look
 from wirelessagent.language.request import changed

@@ -284,6 +284,10 @@ _DRAWN, _NEAR, _FILLING = 0.5, 0.3, 0.5
 """What the kind of a drawn aim counts, of a sentence that only orders or does not, and of the wish in a frame that
 orders it, beside one that is known."""
 
+_BESIDE = 0.5
+"""In what share of the passes a line that orders nothing is read of those with what is only told beside: of all that
+such authors wrote half is one, and long orders would be doubted."""
+
 _SLIPS = 0.15
 """How much of what people wrote of aims is read with a slip as well."""
 
@@ -312,6 +316,7 @@ class Spoken:
     Attributes:
         near: whether it was written to be mistaken.
         turned: whether it was written so that something else is read of it than it means, or nearly so.
+        told: whether it was written beside what is only told.
     """
 
     text: str
@@ -320,6 +325,7 @@ class Spoken:
     constraints: Mapping[str, Any] | None = None
     near: bool = False
     turned: bool = False
+    told: bool = False
 
     @property
     def is_order(self) -> bool | None:
@@ -335,7 +341,7 @@ def spoken(folder: Path = SPOKEN) -> Iterator[Spoken]:
         label, text, *more = line.split("\t")
         language, _, near = name.partition("_")
         yield Spoken(
-            text=text, label=label, language=language, near=bool(near), turned=near == "turned",
+            text=text, label=label, language=language, near=bool(near), turned=near == "turned", told=near == "told",
             constraints=json.loads(more[0]) if more else None,
         )  # fmt: skip
 
@@ -411,7 +417,8 @@ def _spoken() -> Iterator[Example]:
         kind, does = _nothing(each.text) if kind == "none" else kind, each.is_order
         tells = 0.0 if does is None else 1.0 if each.near else MILD
         bent = True if asked else None if limits is None else False
-        example = Example(each.text, kind, counts, bool(does), tells, 1.0, bent, limits)
+        turns = _BESIDE if each.told and each.label == "none" else 1.0
+        example = Example(each.text, kind, counts, bool(does), tells, turns, bent, limits)
         yield example
         if (kind in OBJECTIVES or limits) and slips.random() < _SLIPS:
             yield example._replace(text=mistyped(each.text, slips))

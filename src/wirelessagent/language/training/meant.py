@@ -18,9 +18,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from wirelessagent.language.conversation.possible import POWERS, RATES
+from wirelessagent.language.conversation.possible import POWERS
 from wirelessagent.language.figure_roles import LABELS
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, RATES
 from wirelessagent.language.mentions import Mention
 from wirelessagent.language.number_roles import BORROWING, Look, figures_of
 from wirelessagent.language.numerals import Number

@@ -28,9 +28,8 @@ import numpy.typing as npt
 from scipy import optimize
 
 from wirelessagent.language.as_meant import as_meant
-from wirelessagent.language.conversation.possible import RATES
 from wirelessagent.language.figure_roles import BUCKETS, LABELS, ROLES_FILE, View, hashed
-from wirelessagent.language.intent import EVERYBODY
+from wirelessagent.language.intent import EVERYBODY, RATES
 from wirelessagent.language.mentions import Mention, mentions
 from wirelessagent.language.number_roles import BORROWING, Look, first_look, second_look
 from wirelessagent.language.numerals import Number
