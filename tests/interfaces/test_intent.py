@@ -55,7 +55,6 @@ ALLOCATE: list[tuple[str, str, dict[str, Any]]] = [
     ("speed up the network please", RATE, {}),
     ("The video keeps buffering", RATE, {}),
     ("My internet is too slow", RATE, {}),
-    ("It's not fast enough", RATE, {}),
     ("Can you increase the download speed?", RATE, {}),
     ("could we get higher data rates with 15 W?", RATE, {"max_power_w": 15.0}),
     ("Go full speed, but stay under 8 watts", RATE, {"max_power_w": 8.0}),
@@ -94,7 +93,6 @@ ALLOCATE: list[tuple[str, str, dict[str, Any]]] = [
     ("电费太高了", POWER, {}),
     ("guarantee each user 0.5 Mbps and save as much energy as you can", POWER, {"min_rate_bps": 5e5}),
     ("turn the power down", POWER, {}),
-    ("It isn't about speed, it's about battery life", POWER, {}),
     ("Use as few watts as possible", POWER, {}),
     ("keep everyone above 2 Mbps using minimum power", POWER, {"min_rate_bps": 2e6}),
     ("5 to 10 Mbit/s per user with the least power", POWER, {"min_rate_bps": 5e6, "max_rate_bps": 1e7}),
@@ -255,7 +253,7 @@ ASK_BACK = [
     "stop max rate",
     "exit the high speed mode", "The speed is good", "power cut yesterday", "set the rate to 2 Mbit/s",
     "save power with exactly 5 W", "max rate, 1,23,456 bit/s each", "max rate over 100 MHz", "max", "save money",
-    "make the network 20% faster",
+    "It's not fast enough", "It isn't about speed, it's about battery life", "save power 24/7",
 ]  # fmt: skip
 
 # Wishes for the opposite of what an objective serves, in the words of one that it does.
@@ -263,7 +261,7 @@ OPPOSITE = [
     "as slow as possible", "make it as slow as possible", "go slow", "make it slow", "I want a slow network",
     "make the network slow",
     "尽量慢", "越慢越好", "网速越慢越好", "尽可能慢", "more buffering",
-    "anything but max rate", "everything except power saving", "除了省电", "maximum error rate", "最高误码率",
+    "anything but max rate", "everything except power saving", "除了省电", "最高误码率",
     "lowest energy efficiency", "minimum energy efficiency", "最低能效", "能效最低", "降低能效",
     "worst energy efficiency",
     "reduce energy efficiency", "reduce the overall energy efficiency", "sacrifice energy efficiency",
@@ -299,7 +297,7 @@ WRONG_AND_WISH = [
 HARMLESS_NUMBERS = [
     ("more speed for all 8 users", RATE), ("higher speed, serve all 8 users", RATE), ("8个用户,速率最大", RATE),
     ("with 8 users, max rate", RATE), ("save power for all eight users", POWER),
-    ("higher speed for 4K video", RATE), ("save power 24/7", POWER), ("P1 with 10 W", RATE),
+    ("higher speed for 4K video", RATE), ("P1 with 10 W", RATE),
     ("所有8个用户网速快一点", RATE),
     ("faster, the cell uses 10 W", RATE), ("with 10 W make it fast", RATE),
     ("faster downloads with 20 subcarriers", RATE),

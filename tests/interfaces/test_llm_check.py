@@ -282,7 +282,7 @@ def test_no_request_from_a_sentence_that_makes_none(text: str, objective: str, w
     ("text", "objective", "words"),
     [
         ("the batteries on site are nearly flat", "min_power", "batteries"),
-        ("everyone deserves a slice of the cake", "proportional_fairness", "a slice of the cake"),
+        ("everyone should get a slice of the cake", "proportional_fairness", "a slice of the cake"),
         ("can you save power?", "min_power", "save power"), ("the picture stutters", "max_rate", "stutters"),
         ("谁都别垫底", "max_min_rate", "垫底"),
     ],

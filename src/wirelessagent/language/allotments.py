@@ -57,6 +57,13 @@ _GIVEN_ALIKE = Beside(
 )
 _UNLIMITED = deferred(rf"(?i){either('figures', 'users', 'free')}")
 _ASIDE = deferred(r"\s*[,(\uff0c][^,;.()\uff0c；。]*")
+_KEPT = Beside(
+    deferred(rf"(?i)(?:{either('figures', 'users', 'keeps')})\s*(?:{GIVEN_TO}\s*)*$"),
+    deferred(rf"(?i)\s*号?\s*(?:{either('figures', 'users', 'stays')})"),
+)
+_OUT_ALONE = deferred(rf"(?i)\s*号?[\s,:\uff0c]*(?:{either('figures', 'users', 'out_alone')})\s*")
+_SPARED = deferred(rf"(?i)(?:{either('figures', 'users', 'spares')})\s*(?:{GIVEN_TO}\s*)*$")
+_AND = deferred(rf"(?i)\b(?:{AND}|but|pero|mais)\b")
 _SILENT = ("kept", "stale")
 """Roles of somebody who is only spoken of."""
 _UNSETTLED = ("exempt", "unclear")
@@ -271,13 +278,35 @@ class Allotments:
         role = self._likely[mention] = max(chances, key=lambda each: chances[each])
         if role == "users" and self._others_have_a_figure(mention):  # who are served then, too
             return "exempt" if WITHOUT.search(self._plain[slice(*self._clause_of(mention))]) else "unclear"
+        if role == "users" and self._is_out_of_others(mention):
+            return "leave_out"
+        if role in ("leave_out", "unclear", "kept") and self._stays(mention):
+            return "kept"
         sure = _SURE_OF_SILENCE if role in _SILENT else _SURE_OF_A_ROLE  # nobody is to be dropped unheard
         unsaid = role == "leave_out" and _LEAVING.search(self._plain) is None  # "user 3 has priority"
         if role == "given" or (role != "unclear" and chances[role] > sure and said[role] > _SAID and not unsaid):
             return role
+        if _OUT_ALONE.fullmatch(self._plain, mention.end, self._own_words(mention)[1]):
+            return "leave_out"
         if mention.role != "named" or chances["given"] >= _SURE_OF_NO_ROLE:
             return "given"
         return "exempt" if rated and self._is_out_of_all(mention) else "unclear"
+
+    def _stays(self, mention: Mention) -> bool:
+        """Whether somebody goes on to be served: "user 5 stays, user 6 out", "don't leave user 8 out"."""
+        if _SPARED.search(self._plain, 0, mention.start):
+            return True
+        start, end = self._own_words(mention)
+        ahead, behind = (
+            _KEPT.ahead.search(self._plain, start, mention.start),
+            _KEPT.behind.match(self._plain, mention.end),
+        )
+        if ahead is None and behind is None:
+            return False
+        last = mention.end if behind is None else behind.end()
+        and_ = _AND.search(self._plain, last, end)  # "keep user 5 and drop user 6"
+        out = _LEAVING.search(self._plain, last, and_.start() if and_ else end)
+        return out is None and not self._has_figures(start, end)
 
     def _is_out_of_all(self, mention: Mention) -> bool:
         """Whether somebody is excepted from everybody, in one clause."""
@@ -285,6 +314,14 @@ class Allotments:
         among = (each for each in self._found if each.role == "everybody" and start <= each.start < end)
         everybody = any(NOBODY.search(self._plain[each.start : each.end]) is None for each in among)
         return everybody and EXCEPTED.search(self._plain, start, mention.start) is not None
+
+    def _is_out_of_others(self, mention: Mention) -> bool:
+        """Whether somebody is excepted from others who are served: "除了6号，其他都服务", not "nobody but user 6"."""
+        start, _ = self._clause_of(mention)
+        others = (each for each in self._found if each.role in ("others", "everybody") and each.start >= mention.end)
+        served = any(not NOBODY.search(self._plain[each.start : each.end]) for each in others)
+        excepted = EXCEPTED.search(self._plain, start, mention.start) is not None
+        return excepted and served and _LEAVING.search(self._plain, mention.end) is None
 
     def _goes_without(self, mention: Mention) -> frozenset[str] | None:
         """The limits that are lifted where all that is said of somebody lifts them; none of them where that is unsaid.

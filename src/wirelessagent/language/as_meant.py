@@ -120,7 +120,24 @@ _FROM, _FROM_OR_OF, RAISES, _LOWERS, _OTHERWISE = (
 )
 CHANGES = f"{RAISES}|{_LOWERS}|{_OTHERWISE}"
 LEADS = rf"(?<![A-Za-zÀ-ÿ]){any_word('figures', 'becoming', 'words')}(?![A-Za-zÀ-ÿ])"
-_LED = deferred(rf"(?i)(?:\s*(?:{CHANGES}))*\s*{LEADS}\s*")
+_WAYS, _STOOD, _MAKES, _REPLACES, _BY, _AHEAD_INSTEAD = (
+    either("figures", "becoming", name) for name in ("ways", "stood", "makes", "replaces", "by", "ahead_instead")
+)
+_LED = deferred(rf"(?i)(?:\s*(?:{CHANGES}|{_WAYS}))*\s*{LEADS}\s*")
+_IN_ITS_PLACE = (  # what stands ahead of a figure that gives way, and between it and the one in its place
+    (
+        deferred(rf"(?i)(?P<gone>(?:{_STOOD})\s*)$"),
+        deferred(rf"(?i)(?P<kept>)(?:\s+\w+){{0,2}}?\s*[,;:.\uff0c；。]\s*(?:(?:{AND}|but|aber)\s+)?(?:{_MAKES})\s*"),
+    ),
+    (
+        deferred(rf"(?i)(?:{_REPLACES})(?:\s+(?!{AND})\w+){{0,3}}?\s*(?P<gone>)$"),
+        deferred(rf"(?i)(?P<kept>(?:\s+\w+){{0,4}}?\s*)(?:{_BY})\s*"),
+    ),
+    (
+        deferred(rf"(?i)(?:^|[,;:.\uff0c；。])\s*(?P<gone>(?:{_AHEAD_INSTEAD})\s*)$"),
+        deferred(r"(?i)(?P<kept>[^.;!?。；]*)"),
+    ),
+)
 _LED_AHEAD = deferred(rf"(?i){LEADS}\s*$")
 _WAS = deferred(rf"(?i)\s*(?:{_FROM}|(?P<of>{_FROM_OR_OF}))\s*$")
 _CHANGED = deferred(rf"(?i)(?P<up>{RAISES})|(?P<down>{_LOWERS})|{_OTHERWISE}")
@@ -142,7 +159,7 @@ def without_corrected(text: str) -> str:
     """
     done = list[Span]()
     plain = normalise(text)
-    for start, end, instead in (*_taken_back(plain), *_not_meant(plain), *_was_before(plain)):
+    for start, end, instead in (*_taken_back(plain), *_not_meant(plain), *_given_way(plain), *_was_before(plain)):
         if not overlaps((start, end), done):  # "14 watts uh no 13 watts": one is taken back, and not the other, too
             text = written_over(text, start, end, instead)
             done.append((start, end))
@@ -212,6 +229,23 @@ def _not_meant(plain: str) -> Iterator[tuple[int, int, str]]:
         parted = "," in said[0] or "\uff0c" in said[0] or said["instead"].strip() not in _DENIES
         if parted and _GOES_ON.match(plain, other.end):  # but "100 mW no 90 mW" corrects
             yield said.start("instead"), other.end, ""
+
+
+def _given_way(plain: str) -> Iterator[tuple[int, int, str]]:
+    """Figures with a unit in whose place others stand: "it was 8 W, make it 6.5", "replace 13 W by 8 W".
+
+    One without a unit gets it.
+    """
+    for one, other in itertools.pairwise(measures(plain)):
+        ends = other.unit is not None or _ENDED.match(plain, other.end) is not None
+        if one.unit is None or not ends or (other.unit is not None and other.unit.kind != one.unit.kind):
+            continue
+        for ahead, between in _IN_ITS_PLACE:
+            gone, kept = ahead.search(plain, 0, one.start), between.fullmatch(plain, one.end, other.start)
+            if gone is not None and kept is not None:
+                unit = "" if other.unit is not None else plain[one.number.end : one.end]
+                yield gone.start("gone"), other.end, kept["kept"] + plain[other.start : other.end] + unit
+                break
 
 
 def _was_before(plain: str) -> Iterator[tuple[int, int, str]]:

@@ -71,7 +71,8 @@ _DENIED_AFTER = deferred(  # "mehr als 24 Watt gibt's nicht", "below 1 Mbit/s no
 )
 _AFTER_RE = deferred(
     rf"(?i)[\s-]*(?:{any_word('figures', 'bounds', 'ahead_of_behind')}\s+){{0,5}}"
-    rf"(?P<word>{_any_of('at_least_behind', 'at_most_behind', 'exactly_behind')})(?!\s*(?:of\s+|is\s+)?[0-9])"
+    rf"(?P<word>{_any_of('at_least_behind', 'at_most_behind', 'exactly_behind')})"
+    r"(?!\s*(?:of\s+|is\s+)?[0-9]|\s+(?:du|des|del|de\s+l))"  # "ajoute 300 kbit/s au minimum du 2"
 )
 _POLITE = either("talk_forms", "assent", "polite")
 _LAST = "|".join(f"(?P<{bound}>{either('figures', 'bounds', f'{bound}_last')})" for bound in reversed(_BOUNDS))
@@ -103,10 +104,17 @@ WITH = r"(?:with|con|avec|mit|bei)\b"
 """Words behind which the noun ahead is one of a wish: "max rate with 1 Mbit/s"."""
 _WISH_WITH = deferred(rf"{_RATE_RE.pattern}\s+(?:\w+\s+)?{WITH}")
 _MOST_WITH = deferred(rf"(?i)(?<![0-9] )(?:{either('figures', 'bounds', 'the_most')})\s+{WITH}")
+_LEAST_WITH = deferred(rf"(?i)(?:{_any_of('at_least')})\s+{WITH}")  # "maximiere die Mindestrate mit 10 W"
 _SOMEBODY = deferred(
     rf"(?i){USER_NOUN}|{either('figures', 'users', 'everybody')}|{either('figures', 'users', 'given')}"
 )
 _CLAUSE = deferred(CLAUSE_END)
+_SYMBOL = deferred(r"(?i)\br_?(?P<bound>min|max)\s*[(\[][^()\[\]=]{1,12}[)\]]\s*=\s*$")  # "Rmax(user 8) = 2 Mbit/s"
+_CAP = rf"(?:{'|'.join(words_of('figures', 'bounds', 'caps'))}|m[aá]x|{any_word('figures', 'lifted', 'ceilings')})"
+_RAISED_UP_TO = deferred(  # "raise user 4 up to 2 Mbit/s", but not "raise the cap up to 2 Mbit/s"
+    rf"(?i)(?:{either('figures', 'becoming', 'raises')})(?:(?!\b{_CAP}).)*"
+    rf"{any_word('figures', 'users', 'as_far_as')}\s*$"
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -147,6 +155,9 @@ def _without_stops(text: str) -> str:
 
 def _before(text: str, start: int, end: int, *, kind: str, after: int) -> tuple[Comparator, int] | None:
     window_start = max(after, start - 80)
+    symbol = _SYMBOL.search(text, window_start, start)
+    if symbol is not None:
+        return ("at_least" if symbol["bound"].lower() == "min" else "at_most"), symbol.start()
     cuts = (match.end() for match in _CLAUSE.finditer(text, window_start, start) if match.group() != ":")
     clause_start = max(cuts, default=window_start)
     for match in reversed(list(_BEFORE.finditer(text, clause_start, start))):
@@ -155,7 +166,8 @@ def _before(text: str, start: int, end: int, *, kind: str, after: int) -> tuple[
         # "bits per joule at the maximum with 1 Mbit/s", but not "each at the maximum with 1 Mbit/s"
         most = kind == "rate" and _MOST_WITH.match(text, match.start()) is not None
         wish = most and _SOMEBODY.search(text, clause_start, match.start()) is None
-        if not is_filler or wish or _foreign_noun(gap, kind):
+        raised = kind == "rate" and _RAISED_UP_TO.search(text, clause_start, match.end()) is not None
+        if not is_filler or wish or raised or _foreign_noun(text[match.start() : start], kind):
             continue
         for bound in _BOUNDS:
             if match[bound]:
@@ -179,8 +191,8 @@ def _is_denied_behind(text: str, end: int) -> bool:
     return _DENIED_AFTER.match(text[end : clause.start() if clause else len(text)]) is not None
 
 
-def _foreign_noun(gap: str, kind: str) -> bool:
+def _foreign_noun(said: str, kind: str) -> bool:
     """ "min power 1 Mbit/s", "max rate with 1 Mbit/s each": the word is of a wish, not of the rate that follows."""
     if kind == "rate":
-        return _POWER_RE.search(gap) is not None or _WISH_WITH.search(gap) is not None
-    return _RATE_RE.search(gap) is not None
+        return _POWER_RE.search(said) is not None or _WISH_WITH.search(said) is not None
+    return _RATE_RE.search(said) is not None or _LEAST_WITH.search(said) is not None

@@ -16,7 +16,7 @@ from wirelessagent.language.as_meant import CHANGES, LEADS, turns
 from wirelessagent.language.comparators import WITH, nouns_of, speaks_of
 from wirelessagent.language.intent import RATES
 from wirelessagent.language.judged import Judged
-from wirelessagent.language.mentions import GIVEN_TO
+from wirelessagent.language.mentions import ARTICLES, GIVEN_TO
 from wirelessagent.language.moods import named_in
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.stated import (
@@ -32,7 +32,12 @@ from wirelessagent.language.word_tables import any_word, deferred, either
 
 _STEP = Phrases(either("figures", "one", "watt_more"), marks="watt vatio 一瓦")
 _SET = deferred(rf"(?i)(?P<verb>{CHANGES})(?:\s+(?!{AND})\w+){{0,3}}?\s*$")
-_SET_TO = deferred(rf"(?i)(?:\s|{CHANGES}|{GIVEN_TO}|\b{any_word('figures', 'shares_of', 'of')}\b)*{LEADS}\s*$")
+_AT = rf"(?:{LEADS}|(?<![A-Za-zÀ-ÿ]){any_word('figures', 'becoming', 'at')}(?![A-Za-zÀ-ÿ])|[:=])"
+_SET_TO = deferred(
+    rf"(?i)(?:[\s@]|{CHANGES}|{GIVEN_TO}|(?:{ARTICLES})|\b[ld]'|\b{any_word('figures', 'shares_of', 'of')}\b|{_AT})*"
+    rf"(?:@|{_AT})\s*"
+)
+_MINIMUM = deferred(rf"(?i){either('figures', 'becoming', 'minimum')}")
 _NOUNS = "|".join(either("figures", "bounds", name) for name in ("between", "rate", "power"))
 _FOR = deferred(r"(?i)\s*(?:\b(?:for|to|für|para|pour|à)\b|给)\s*(?:the\s+|l'\s?|el\s+|los\s+|les\s+)?")
 _TAKES = either("figures", "users", "takes")
@@ -225,11 +230,12 @@ class _Reader:
 
     def _setting(self, figure: Quantity, role: str) -> Iterator[Span]:
         """Where words set a limit to a figure, and wish for nothing: "raise the minimum rate of user 3 to 2 Mbit/s"."""
-        plain = blanked(self._reading.plain, ((each.start, each.end) for each in self._judged.mentions))
-        start = clause_start(plain, figure.phrase_start)
+        plain = blanked(self._reading.plain, ((each.start, each.end) for each in self._judged.mentions), "@")
+        start = clause_start(plain, len(plain[: figure.phrase_start].rstrip(" :")))
         start = max([start, *(each.end for each in self._judged.figures if each.end <= figure.start)])
         nouns = [span for span, name in named_in(plain) if name == role]
         nouns += nouns_of(figure.kind, plain)
+        nouns += [each.span() for each in _MINIMUM.finditer(plain) if role == "min_rate_bps"]
         for first, last in nouns:
             if start <= first and last <= figure.start and _SET_TO.fullmatch(plain, last, figure.start):
                 verb = _SET.search(plain, start, first)

@@ -21,7 +21,7 @@ from wirelessagent.language.request import users_in
 from wirelessagent.language.sentence import labels_of, own_words, read_once
 from wirelessagent.language.text import Span, replaced
 from wirelessagent.language.vocabulary import languages_of
-from wirelessagent.language.word_tables import deferred, either, table
+from wirelessagent.language.word_tables import table
 
 if TYPE_CHECKING:
     from wirelessagent.language.recogniser import Context
@@ -34,7 +34,6 @@ READ_IN_A_TALK = "conversation"
 _NAMES_SHOWN = 12
 _FEWEST_WORDS = 3
 """And signs, of a sentence that can be judged."""
-_SAME_WITH = deferred(rf"(?i)^\s*(?:{either('figures', 'kept', 'same_with')})\s*")
 _CLAUSE, _FAITHFUL = 0.4, 0.2
 """How likely an order what begins with a clause has to be by itself, and how likely it is read as it is meant."""
 
@@ -72,14 +71,12 @@ def doubted(text: str, context: Context | None, intent: Intent) -> Span | None:
     """The words that speak against an order, empty where no few of them do; None where it is likely one.
 
     From each clause with a figure or a user on it must not be too unlikely, too: "…, no way user 3 gets 2 Mbit/s".
-    Of what only the talk gives a meaning ("yes") the words alone say nothing, nor do hardly any words; that what holds
-    is meant ("the same with …"), and what only lifts limits, is known.
+    Of what only the talk gives a meaning ("yes") the words alone say nothing, nor do hardly any words; what only lifts
+    limits is known.
     """
     if intent.recogniser == READ_IN_A_TALK:
         return None
-    holds = context is not None and context.objective is not None
-    said = _SAME_WITH.sub(lambda same: " " * len(same[0]), text) if holds else text
-    sentence = read_once(said, own_words(), context)
+    sentence = read_once(text, own_words(), context)
     if len(sentence.frame.tokens) < _FEWEST_WORDS or _only_lifts(sentence.plain):
         return None
     turn = next(sentence.turns_unread(), None)

@@ -12,11 +12,11 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
-from wirelessagent.language.as_meant import LEADS, RAISES
+from wirelessagent.language.as_meant import CHANGES, LEADS, RAISES
 from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.figure_roles import answers, likely, shipped_roles
 from wirelessagent.language.intent import RATES
-from wirelessagent.language.mentions import EXCEPTED, GIVEN_TO, JOINT_WORDS, NOBODY, WHO, Mention
+from wirelessagent.language.mentions import ARTICLES, EXCEPTED, GIVEN_TO, JOINT_WORDS, NOBODY, WHO, Mention
 from wirelessagent.language.number_roles import ITEMS, Numbers, everybody_named, jointly, moved, runs, series, shares
 from wirelessagent.language.numerals import Number, factors
 from wirelessagent.language.quantities import Quantity
@@ -51,11 +51,16 @@ _CARRIER_AHEAD = deferred(
 )
 _CARRIER_BEHIND = deferred(rf"(?i)\s*(?:(?:on|in|for|auf|bei|en|sur|dans|pour|para)\s+)?{EACH_CARRIER}")
 _GIVES = deferred(rf"(?i){either('figures', 'bounds', 'gives')}")
-_RAISED = deferred(rf"(?i)(?:{RAISES})\W.*{LEADS}\s*$")
+_RAISED = deferred(rf"(?i)(?:{RAISES})\W.*(?:{LEADS}|\b{any_word('figures', 'users', 'as_far_as')})\s*$")
 _CAPS = deferred(
     rf"(?i)\b(?:{'|'.join(words_of('figures', 'bounds', 'caps'))})|m[aá]x|上限|限速|封顶|最高|"
     rf"{any_word('figures', 'lifted', 'ceilings')}|{any_word('figures', 'bounds', 'caps_of')}"
 )
+_OF_CIRCUITS = either("figures", "bounds", "circuit")
+_CIRCUIT = deferred(  # "the static power to 3 W", but not, behind a figure, "2 W static power, 10 W …"
+    rf"(?i)(?:^|\w.*|[,;.、，；。])\s*(?:{_OF_CIRCUITS})(?:[\s:=]|{CHANGES}|{LEADS}|为|{ARTICLES})*$"
+)
+_ALSO = deferred(rf"(?i)\b(?:{AND})\b")
 _SURE, _PERHAPS = 0.8, 0.2
 _ONCE, _MOST_POWERS, _HARDLY = ("max_power_w", "circuit_power_w", "subcarrier_max_power_w"), 4, 0.01
 
@@ -263,13 +268,17 @@ def _as_bounded(
         return moved(chances, ("outage", "reliability"), "share")
     if figure.kind == "power" and _is_of_a_carrier(plain, figure, beside):
         return moved(chances, tuple(chances), "subcarrier_max_power_w")
+    if figure.kind == "power" and _CIRCUIT.search(plain, beside[0], figure.start):
+        return moved(chances, ("max_power_w", "subcarrier_max_power_w", "change", "unclear"), "circuit_power_w")
     if figure.kind == "power" and _lead_on(plain, _CARRIER_BEHIND.match(plain, figure.phrase_end), beside[1]):
         return moved(chances, ("stale", "subcarrier_max_power_w"), "max_power_w")
     if figure.kind == "power" and not carriers:
         return moved(chances, ("subcarrier_max_power_w",), "max_power_w")
     bound = BOUNDED.get(figure.comparator or "") if figure.kind == "rate" else None
     ahead = plain[clause_start(plain, figure.phrase_start, beside[0]) : figure.phrase_start]
-    if figure.kind == "rate" and figure.comparator is None and _RAISED.search(ahead) and _CAPS.search(ahead) is None:
+    raised = _RAISED.search(ahead) if figure.kind == "rate" and figure.comparator is None else None
+    joints = [each.end() for each in _ALSO.finditer(ahead, 0, raised.start() + 1)] if raised else []
+    if raised and _CAPS.search(ahead, max(joints, default=0)) is None:  # not "drop the cap and raise user 3 to …"
         bound = "min_rate_bps"
     return chances if bound is None else moved(chances, (*RATES, "both"), bound)
 

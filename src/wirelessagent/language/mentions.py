@@ -65,7 +65,8 @@ _NAMED = Phrases(
     rf"#\s?(?P<hash>[0-9]{{1,4}}(?:{_AND}#?\s?[0-9]{{1,4}})*)"
     rf"|(?<![A-Za-z])(?:{_NUMBER_NOUN}|no\.)\s+(?P<number>{_LIST})"
     rf"|(?<![A-Za-z])(?P<ordinal>{_ORDINAL})\s+{NOUN}(?![A-Za-z])"
-    rf"|(?:{_ONE_USER})(?P<one>uno?)(?!\w|\s+(?:por|pour|de|virgule|coma|punto|point|et demi|y medio)\b|\s*%)"
+    rf"|(?:{_ONE_USER})(?P<one>uno?|eins)"
+    r"(?!\w|\s+(?:por|pour|de|virgule|komma|coma|punto|point|et demi|y medio)\b|\s*%)"
 )
 _ZH_NUMBER = r"(?:[0-9]{1,4}|[一二三四五六七八九十]{1,3})"
 ZH_NOUN = r"(?:用户|終端|终端|用戶|UE|ue|客户|客戶|订户|设备|手机|节点)"
@@ -82,6 +83,8 @@ _ZH = deferred(
     rf"|(?<![权重乘取为=.0-9月])(?!(?:(?<=[设是给算为])|(?<=[是为] ))[0-9]{{1,4}}\s*[,\uff0c]|"
     rf"(?<=[第之]){_ZH_NUMBER}\s*[,\uff0c、])(?P<hao>{_ZH_LIST})\s*[号號](?!线|楼|院|机房|站|小区|基站|人|桌|门|馆|店|厅|早|晚)\s*{ZH_NOUN}?"
     rf"|(?<!倒数)第\s*(?P<nth>{_ZH_NUMBER})\s*[个位名]\s*{ZH_NOUN}"
+    r"|(?<![零〇一二两三四五六七八九十百千万亿点0-9])(?![一二三四五六七八九]*?(?P<again>[一二三四五六七八九])[一二三四五六七八九]*(?P=again))(?P<run>[一二三四五六七八九]{3,8})号?"
+    r"(?![零〇一二两三四五六七八九十百千万亿点半兆瓦毫kKM0-9]|[个位名])"  # 三四六八 is no number
 )
 _OTHERS = Phrases(
     either("figures", "users", "others"),
@@ -159,6 +162,11 @@ NOBODY = Phrases(either("figures", "users", "nobody"))
 _INCLUSIVE = deferred(rf"(?i)(?:\s*[,(\uff0c]?\s*{_INCLUDED}\s*\)?,?)?\s*")
 _BEFORE_EACH = deferred(rf"{_INCLUSIVE.pattern},?\s*(?:(?:{either('figures', 'users', 'takes')})\s+)?")
 _EACH_OF = deferred(rf"(?i)(?:{either('figures', 'users', 'each_of')})\s*{ANY_NOUN}?\s*(?:from|de|von|entre)?\s*$")
+_ROW = deferred(
+    rf"(?i)\b{WORD_NUMBER}(?:\s+{WORD_NUMBER})+\s+(?:{AND})\s+{WORD_NUMBER}\b"
+    rf"(?!\s+(?:{'|'.join(listed('scales'))}|point|and\s+an?\s|coma|y\s+medi|virgule|et\s+demi|komma)\b)"
+)
+_MOST_IN_A_ROW = 12
 _LONGEST_RANGE, _NEAR, MOST_USERS, _FAR_OFF = 100, 25, 100, 5
 """How many users a range may have, how near what leaves out stands, and from where on a number behind users that is so
 many times theirs is none."""
@@ -263,6 +271,16 @@ def named(plain: str) -> Iterator[Mention]:
         users = listed_users(plain[match.start(group) : min(end, match.end(group))])
         if users and end > match.start(group):
             yield Mention(role="named", users=users, start=match.start(), end=end)
+    yield from _in_a_row(plain)
+
+
+def _in_a_row(plain: str) -> Iterator[Mention]:
+    """Three or more small numbers in words that grow, which no figure is said by: "only one two five and eight"."""
+    for match in _ROW.finditer(plain):
+        values = [_number(item[0]) or 0 for item in _ITEM.finditer(match[0])]
+        grows = all(0 < one < other <= _MOST_IN_A_ROW for one, other in itertools.pairwise(values))
+        if grows and len(values) > 2 and unit_at(plain, match.end()) is None:
+            yield Mention(role="named", users=tuple(map(str, values)), start=match.start(), end=match.end())
 
 
 def _without_quantity(plain: str, match: re.Match[str], group: str) -> int:
@@ -322,6 +340,8 @@ def _number(word: str) -> int | None:
     return None if value is None else int(value)
 
 
+_OWN_BOUND = deferred(rf"(?i)\s+{any_word('figures', 'bounds', 'at_least', 'at_most')}(?!\w)")
+_OWN_WORDS = deferred(rf"(?i)[0-9]|(?:{either('figures', 'users', 'leaving')})\s*(?:{GIVEN_TO}\s*)*$")
 _COUNTED_AGAIN = deferred(rf"号?这?(?P<count>[两二三四五六七八九十])[个位名](?:{ZH_NOUN})?")
 
 
@@ -332,7 +352,7 @@ def merged(plain: str, found: Sequence[Mention]) -> list[Mention]:
         last = merged[-1] if merged else mention
         between: list[str] | None = None
         again = {*mention.users} <= {*last.users}  # "to 1 and 6, 1 at least …"
-        if merged and last.role == mention.role == "named" and not again:
+        if merged and last.role == mention.role == "named" and not again and not _has_its_own(plain, last, mention):
             if _UP_TO.fullmatch(plain, last.end, mention.start):
                 between = [*listed_users(f"{last.users[-1]} to {mention.users[0]}")]
             elif JOINT.fullmatch(plain, last.end, mention.start) and (
@@ -346,6 +366,15 @@ def merged(plain: str, found: Sequence[Mention]) -> list[Mention]:
             merged[-1] = Mention(role="named", users=users, start=last.start, end=mention.end)
     parted = [_counted(plain, part) for mention in merged for part in _parted(plain, mention)]
     return _but_for(plain, _distributed(plain, parted))
+
+
+def _has_its_own(plain: str, one: Mention, other: Mention) -> bool:
+    """Whether a bound is of the second alone, and the first is out or has a figure.
+
+    "1 Mbit/s for user 4, and user 8 at most 2", "leave out user 6 and user 4 at least 1 Mbit/s".
+    """
+    ahead = plain[clause_start(plain, one.start) : one.start]
+    return _OWN_BOUND.match(plain, other.end) is not None and _OWN_WORDS.search(ahead) is not None
 
 
 def _counted(plain: str, mention: Mention) -> Mention:

@@ -371,7 +371,10 @@ def runs(plain: str, items: Sequence[_Item], joint: re.Pattern[str]) -> list[lis
 def _no_limits(look: Look, else_read: Sequence[Number]) -> list[Number]:
     """The numbers that may be users or mere descriptions: not bounded, scaled ("2M"), a part of one, or with a unit."""
     bounded = [(q.start, q.end) for q in look.quantities if q.kind in ("bare", "other") and q.comparator is not None]
-    bounded += [(figure.start - 1, figure.end) for figure in look.figures]  # "2 9 watts"
+    bounded += [
+        (figure.start - look.plain[: figure.start].endswith(" "), figure.end)
+        for figure in look.figures  # "2 9 watts"
+    ]
     return [
         number
         for number in look.loose

@@ -63,9 +63,10 @@ _GROUPED_AHEAD = deferred(  # "en bloques de four"
 )
 _AS_FEW = deferred(rf"(?i)\b{any_word('figures', 'numbers', 'degrees')}\s+$")
 NUMBERED = deferred(
-    rf"(?i)\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|{any_word('figures', 'numbers', 'joins', 'ors')}|&|/)\s*)*$"
+    rf"(?i)\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:[,&/–-]|{any_word('figures', 'numbers', 'joins', 'ors')}|"
+    rf"{any_word('figures', 'users', 'to')})\s*)*$"
 )
-"""What stands before a number that names a user: "user ", "users 1 and "."""
+"""What stands before a number that names a user: "user ", "users 1 and ", "users 1 to "."""
 _EACH = "".join(f"(?<!{word} )" for word in words_of("figures", "users", "of_each"))
 _NAMED = deferred(f"(?i){_EACH}{NUMBERED.pattern.removeprefix('(?i)')}")
 _PLURAL = deferred(rf"(?i)\b{any_word('figures', 'users', 'plurals')}\s*$")

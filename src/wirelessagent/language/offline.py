@@ -85,7 +85,8 @@ def judge(sentence: Sentence) -> Judgement:
             kind="allocate", objective=goal.objective, likeliest=1.0, limits=0.0, certainty=goal.confidence,
             objective_clear=True,
         )  # fmt: skip
-    if sentence.reading.values and all(unit.word == MASK for unit in sentence.units):  # no word is left for an aim
+    left = (unit for unit in sentence.wishing(sentence.units) if unit.word != MASK)
+    if sentence.reading.values and next(left, None) is None:  # no word is left for an aim
         return Judgement(kind="clarify", objective=objective, likeliest=0.0, limits=1.0)
     kind, spoken_of = _kind(sentence, kinds, objective, share), _spoken_of(goal, labels)
     told = kind == "clarify" and sentence.worded and sentence.chances.is_told
@@ -375,7 +376,7 @@ class _Understanding:
         holds = context.objective is not None
         whole = bool(words and reading.values)  # a request of its own answers no earlier question
         values, dropped = self._changes(is_answer=context.awaits == "clarification" and not (whole and holds))
-        changed = self._dropped or reading.back or not reading.values or moods.keeps_the_limits(self._sentence.plain)
+        changed = self._dropped or reading.back or not reading.values or moods.keeps_the_limits(self._text)
         amends = holds and bool(changed)
         reply = self._voice.restated(objective, values, reading.not_used)
         request = self._answer.allocate(objective, values, evidence, reply, confidence)

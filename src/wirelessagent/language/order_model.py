@@ -68,10 +68,10 @@ def frame_of(sentence: Sentence) -> Frame:
     >>> frame_of(Sentence("If it rains, at most 5 W for user 3", own_words())).tokens
     ('if', 'it', 'rains', ',', '@', 'for', '@')
     """
-    found, wished = list[tuple[str, Span]](), sentence.wished
+    found, wished = list[tuple[str, Span]](), {place for span in sentence.wished for place in range(*span)}
     for match in WORD_OR_SIGN.finditer(sentence.plain):
         start, end = match.span()
-        if any(first <= start < last for first, last in wished):
+        if start in wished:
             if not found or found[-1][0] != WISH:
                 found.append((WISH, (start, end)))
         else:

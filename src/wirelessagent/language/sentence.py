@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, TypeVar, cast
 
 from wirelessagent import plugins
 from wirelessagent.language import goals
@@ -13,7 +13,7 @@ from wirelessagent.language.constraints import read_constraints
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.intent import LISTS_OF_USERS
 from wirelessagent.language.mentions import mentions
-from wirelessagent.language.moods import classes_in
+from wirelessagent.language.moods import classes_in, is_ordered, lifted_in
 from wirelessagent.language.numerals import numbers
 from wirelessagent.language.order_model import Frame, frame_of, shipped_order_model
 from wirelessagent.language.quantities import parse_quantities
@@ -45,7 +45,7 @@ from wirelessagent.language.vocabulary import (
     respelt,
     units_of,
 )
-from wirelessagent.language.word_tables import deferred
+from wirelessagent.language.word_tables import deferred, either
 from wirelessagent.model.objective import Objective
 
 if TYPE_CHECKING:
@@ -63,7 +63,11 @@ _HARDLY = 0.12
 """How unlikely a text is to order something as a whole, to be asked about whatever a part of it says."""
 _FEWEST_WORDS = 3
 """Beside figures and users, of what tells something by itself."""
+_SAME_BUT = deferred(rf"(?i)\s*(?:{either('figures', 'kept', 'same_but')})\s*(?=\w)")
 _AND, _AND_LAST = deferred(rf"(?i)\b(?:{AND})\b"), deferred(rf"(?i)\b(?:{AND})\s*$")
+
+
+Placed = TypeVar("Placed", Found, Unit)
 
 
 class Sentence:
@@ -82,7 +86,14 @@ class Sentence:
         self.units: list[Unit] = units_of(respelt(self.plain), self.reading.masked)
         self.found: list[Found] = _vocabulary(own).find(self.units)
         self.concepts = {item.term.concept for item in self.found}
-        self.goal: Goal = goals.goal_of(self.found)
+        self._lifted = tuple(lifted_in(self.plain).values())
+        self.goal: Goal = goals.goal_of(self.wishing(self.found))
+
+    def wishing(self, items: list[Placed]) -> list[Placed]:
+        """Those words that lift no limit: "drop the power limit" wishes for no power."""
+        if not self._lifted:
+            return items
+        return [item for item in items if not overlaps((item.start, item.end), self._lifted)]
 
     @property
     def worded(self) -> bool:
@@ -194,12 +205,12 @@ class Sentence:
         It stays whole where the rest is no order, or means something else by itself, as "… Give him 2 Mbit/s"; and
         where it names no aim of its own, or not all limits that are told: "We are granted 12 W. Max rate."
         """
-        *ahead, last = sentences(self.text) or [(0, 0)]
-        doubtful = not ahead or self.chances.order < _HARDLY
-        if doubtful or self._part(last).only_tells:  # "Max rate. Disregard what I said."
+        spans = sentences(self.text)
+        if len(spans) < 2 or self.chances.order < _HARDLY:
             return self
-        told = {span: part for span in ahead for part in [self._part(span)] if part.only_tells}
-        if not told:
+        told = {span: part for span in spans for part in [self._part(span)] if part.only_tells}
+        after = told.get(spans[-1])  # "Max rate. Disregard what I said.", but "… Yesterday it crawled."
+        if not told or len(told) == len(spans) or (after is not None and not after.tells_of_the_past):
             return self
         rest, whole = self._without([*told]), self.reading
         figures = {each.kind for part in told.values() for each in part.quantities}
@@ -226,6 +237,12 @@ class Sentence:
         wordy = sum(word.said.isalnum() for word in self.words) >= _FEWEST_WORDS
         least = _TELLS_FIGURES if self.quantities else _TELLS
         return wordy and self.chances.order < least and (self.chances.is_told or self.chances.asks)
+
+    @property
+    def tells_of_the_past(self) -> bool:
+        """Whether it has words of a time that is over, and none of an order or a condition."""
+        names = {name.partition(":")[0] for name, _ in classes_in(self.plain)}
+        return "past" in names and not (names & {"condition", "refusal"} or is_ordered(self.plain))
 
     def _without(self, gone: Sequence[Span]) -> Sentence:
         return Sentence(
@@ -262,10 +279,20 @@ def _by_place(plain: str, said: Iterable[tuple[str, Span]]) -> Callable[[Span], 
     return lambda span: tuple(dict.fromkeys(name for each in names[slice(*span)] for name in each))
 
 
+def beside_the_same(text: str, context: Context | None) -> str:
+    """A line behind a request without words that all else holds, "the same but without user 2", the rest in its place.
+
+    >>> beside_the_same("Same but 8 W", None)
+    'Same but 8 W'
+    """
+    same = _SAME_BUT.match(text) if context is not None and context.objective is not None else None
+    return text if same is None else blanked(text, [same.span()])
+
+
 def read_once(text: str, own: tuple[OwnWords, ...], context: Context | None) -> Sentence:
     """A sentence in its conversation, read once however many ask about it one after the other."""
     names, limit = (context.user_names, context.max_power_w) if context is not None else ((), 20.0)
-    return _read(text, own, tuple(names), limit)
+    return _read(beside_the_same(text, context), own, tuple(names), limit)
 
 
 @functools.lru_cache(maxsize=4)

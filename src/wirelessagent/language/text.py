@@ -44,6 +44,7 @@ USER_NOUN = any_word("figures", "users", "nouns") + r"(?:\s*(?:number|nummer|nú
 AND = any_word("figures", "numbers", "joins")
 """What joins two of a kind, in the languages that write it apart."""
 
+_BREATH = deferred(rf"(?<=[{CJK}]{{3}}) (?=[{CJK}]{{3}})")
 CLAUSE_END = r"[,;:!?()\n\uff0c\uff1b。、…—]|\.(?![0-9])"
 _CUT = deferred(CLAUSE_END)
 
@@ -51,12 +52,13 @@ _CUT = deferred(CLAUSE_END)
 def normalise(text: str) -> str:
     """The text with full-width forms, odd spaces, minus signs, apostrophes and traditional characters made plain.
 
-    It is of the same length.
+    It is of the same length. What is dictated in Chinese has blanks where commas should be.
 
-    >>> normalise("\uff11\uff10\u00a0\u00b5W"), normalise("用戶3")
-    ('10 μW', '用户3')
+    >>> normalise("\uff11\uff10\u00a0\u00b5W"), normalise("用戶3"), normalise("总速率最高 二号不服务")
+    ('10 μW', '用户3', '总速率最高，二号不服务')
     """
-    return text.translate(_TABLE)
+    plain = text.translate(_TABLE)
+    return plain if plain.isascii() else _BREATH.sub("\uff0c", plain)
 
 
 @functools.lru_cache(maxsize=64)

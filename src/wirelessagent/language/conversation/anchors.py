@@ -180,8 +180,8 @@ def _anchors(text: str, plain: str, language: str, names: Sequence[str]) -> Iter
     for figure in parse_quantities(text):
         if figure.kind in ("rate", "power", "ratio"):
             taken.append((figure.start, figure.end))
-            bound = plain[figure.phrase_start : figure.start] if figure.comparator == "at_most" else ""
-            bounded = bool(bound) and not named_in(bound) and figure.value > 0  # "at most", and no "limit"
+            said = plain[figure.phrase_start : figure.start] + plain[figure.end : figure.phrase_end]
+            bounded = figure.comparator is not None and figure.value > 0 and not named_in(said)  # and no "limit"
             yield Anchor(figure.kind, figure.start, figure.end, abs(figure.value), is_bounded=bounded,
                          is_negative=figure.value < 0)  # fmt: skip
     for mention in mentions(plain, names, taken):

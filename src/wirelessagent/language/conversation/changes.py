@@ -62,7 +62,8 @@ def _figure_for(possible: Possible, figure: Anchor, kind: str, value: float, gro
     held, ways = possible.limits_of(kind, group), (("plus", 1), ("minus", -1))
     if not held and kind == "max_power_w":  # what is radiated, which can only become less
         held, ways = [Limit(kind=kind, value=possible.radiated_w)], ways[1:]
-    for form, sign in ways if held else ():
+    of_one = kind in FIGURES_OF_USERS and not group.users and len(held) == 1 and isinstance(held[0].whom, Named)
+    for form, sign in ways if held and not of_one else ():  # one who has a figure is not everybody
         sums = [dataclasses.replace(each, value=each.value + sign * value) for each in held]
         yield group.change(sums, form, kind, figure)
 
@@ -94,6 +95,7 @@ def _of_shares(possible: Possible) -> Iterator[Change]:
         able = [kind for kind in able if kind != _BLOCKS]  # which nobody triples by the way
     most_w = possible.figures.get(("max_power_w", EVERYBODY), math.inf)
     of_the_cell = most_w > possible.context.max_power_w and not may_be_lifted("max_power_w", named)
+    of_the_cell &= bool(noun) or "max_power_w" not in possible.last_kinds  # "make that a quarter less"
     kinds = [kind for kind in dict.fromkeys((*possible.held, "min_rate_bps")) if kind in able]
     kinds = [kind for kind in kinds if kind != "max_power_w" or not of_the_cell]  # it may radiate less than its limit
     for figure in possible.line.figures:
@@ -318,6 +320,7 @@ def _back_and_aims(possible: Possible) -> Iterator[Change]:
     before = possible.past[0] if possible.past else {}
     stepped = {key: (before[key], after) for key, after in possible.figures.items() if after and before.get(key)}
     if any(one != other for one, other in stepped.values()) and not possible.line.figures:  # the last change again
-        figures = _alike({key: after for key, (_, after) in stepped.items()}, stepped)
-        for form, again in zip(("again", "as much again"), figures, strict=True):
-            yield Change(acts_between(possible.figures, {**possible.figures, **again}), form, source="last")
+        moved, scaled = _alike({key: after for key, (_, after) in stepped.items()}, stepped)
+        scales = any(isinstance(act, Scale) for act in possible.said)
+        form, figures = ("as much again", scaled) if scales else ("again", moved)
+        yield Change(acts_between(possible.figures, {**possible.figures, **figures}), form, source="last")

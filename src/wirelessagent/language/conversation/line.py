@@ -25,7 +25,7 @@ from wirelessagent.language.moods import without
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.replies import Answer, Voice
-from wirelessagent.language.sentence import Sentence, labels_of, own_words, read_once
+from wirelessagent.language.sentence import Sentence, beside_the_same, labels_of, own_words, read_once
 from wirelessagent.language.text import Span, has_chinese, normalise, overlaps, replaced
 from wirelessagent.language.vocabulary import language_in_a_talk, language_of, languages_of
 from wirelessagent.language.word_tables import deferred, languages_with, table, words_of, written
@@ -98,6 +98,7 @@ class Line:
     @classmethod
     def of(cls, text: str, context: Context) -> Line:
         """The line with its shape."""
+        text = beside_the_same(text, context)
         plain = normalise(text)
         figures = tuple(figure for figure in parse_quantities(text) if figure.kind in ("rate", "power"))
         spans = [(figure.start, figure.end, "#") for figure in figures]

@@ -108,7 +108,7 @@ _STEPS = (0.02, 0.1, 0.3, 0.5, 0.7, 0.9)
 _NEAR, _MOST = 3, 3
 _LIKELY = 0.15
 _SPREAD = np.uint32(2654435761)
-TOGETHER = 60
+TOGETHER = 64
 
 
 @functools.lru_cache(maxsize=1 << 16)
@@ -161,7 +161,8 @@ class Signs:
         acts = {f"{type(act).__name__}:{getattr(act, 'kind', '')}" for act in possible.context.acts}
         self._last = "+".join(sorted(acts))[:60]
         self._last_kinds = {getattr(act, "kind", "") for act in possible.context.acts}
-        self.together = Together(figures=len(self.anchored.figures), read=read.effect, kind=read.kind)
+        named = tuple(anchor for anchor in self.anchored.anchors if anchor.kind in ("users", "others", "everybody"))
+        self.together = Together(figures=len(self.anchored.figures), named=named, read=read.effect, kind=read.kind)
 
     def plainness(self, changes: Sequence[Change], likely: float) -> tuple[bool, int, float]:
         """How plainly changes say what they come to: of those whom the line names, with few figures that change."""
@@ -333,11 +334,13 @@ class Together:
 
     Attributes:
         figures: how many the line says.
+        named: whoever it names.
         read: what the readers of sentences would do.
         kind: of what they take the line for.
     """
 
     figures: int
+    named: tuple[Anchor, ...]
     read: Effect | None
     kind: str
 
@@ -351,7 +354,16 @@ class Together:
             24 + _KINDS.index(self.kind) + 6 * some,
         ]  # fmt: skip
         found += [36 + related] if len(changes) > 1 else []
+        found += [60 + min(self._forgotten(changes), 3)] if some else []
         return found if len(said) == len(changes) else [*found, 44 + 8 * (self.kind == "question") + related]
+
+    def _forgotten(self, changes: Sequence[Change]) -> int:
+        """How many of those whom the line names changes are not for; what the readers hear is for all of them."""
+        if any(change.form in ("read", "guessed") for change in changes):
+            return 0
+        meant = [anchor for change in changes for anchor in (*change.users, change.model) if anchor is not None]
+        spans = [(anchor.start, anchor.end) for anchor in meant]
+        return sum(not overlaps((anchor.start, anchor.end), spans) for anchor in self.named)
 
 
 def _start(change: Change) -> int:

@@ -18,20 +18,29 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.acts import Act, Aim, Drop, LeaveOut, Limit, Named, Scale, Suppose, Undo
+from wirelessagent.language.acts import Act, Aim, Drop, LeaveOut, Limit, Named, Scale, Serve, Suppose, Undo
 from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.conversation.anchors import Anchor, Anchored
 from wirelessagent.language.conversation.answers import speaks_of_applying
 from wirelessagent.language.conversation.line import NAME, Line, is_all
-from wirelessagent.language.conversation.possible import Change, Effect, Possible
+from wirelessagent.language.conversation.possible import OUT, Change, Effect, Possible, users_of
 from wirelessagent.language.conversation.signs import Read, Signs, block_places, place_of
 from wirelessagent.language.guard import asking_whether, guarded, stranger
 from wirelessagent.language.intent import Intent
-from wirelessagent.language.moods import classes_in, is_denied, lifted_in, may_be_lifted, named_in
+from wirelessagent.language.moods import (
+    asks_without_a_mark,
+    classes_in,
+    is_denied,
+    is_supposed,
+    lifted_in,
+    may_be_lifted,
+    named_in,
+)
 from wirelessagent.language.offline import NAME as OFFLINE
 from wirelessagent.language.request import changed, constraints_of
 from wirelessagent.language.sentence import BUILT_IN
-from wirelessagent.language.text import Span, overlaps
+from wirelessagent.language.text import Phrases, Span, overlaps
+from wirelessagent.language.word_tables import any_word, either
 
 TALKS_FILE = Path(__file__).parent.parent / "talks.npz"
 BLOCK, OWN = 1.0, 0.25
@@ -182,9 +191,10 @@ def shipped_talk_model() -> TalkModel:
     return TalkModel.load(TALKS_FILE)
 
 
-SURE, SURER, AGREED, LIKELY = 0.6, 0.9, 0.5, 0.3
+SURE, SURER, SUREST, AGREED, LIKELY = 0.6, 0.9, 0.97, 0.5, 0.3
 """From where on a line does what it likeliest means, from where on if that is another aim or hardly an order, from
-where on if its reader hears it too and nothing is taken from anybody, and from where on it is asked whether it does."""
+where on what asks for a meaning supposes something, from where on if its reader hears it too and nothing is taken from
+anybody, and from where on it is asked whether it does."""
 
 HEARD, NAMED = 0.06, 0.1
 """How likely what a line's reader hears has to be to be asked about, and, a request with its aim, to be done."""
@@ -195,7 +205,10 @@ FRAMED, ORDERED = 6, 0.7
 has to be whose meaning is as sure as can be."""
 
 _DENYING, _WITH_UNITS = ("negation", "refusal"), ("rate", "power", "ratio", "factor")
-_CERTAIN = frozenset({"impossible", "not_understood", "another_figure", "one_of", "power_per_user"})
+_LEAVING = Phrases(f"{either('figures', 'users', 'leaving')}|{either('figures', 'users', 'free')}")
+_NEITHER = Phrases(either("figures", "users", "neither"))
+_LIFTING = Phrases(any_word("figures", "lifted", "go", "gone", "alone").replace("*", r"\w*").lower())
+_CERTAIN = frozenset({"impossible", "not_understood", "another_figure", "one_of", "some_users", "power_per_user"})
 """What a reader asks about figures and users by their words, whatever the talk is about."""
 _DENIED = frozenset({"negated", "refused"})
 """What a reader asks about who hears that something is not to be."""
@@ -211,9 +224,11 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
         return intent, False
     possible = Possible(line.anchored, context)
     read = Read.of(intent, possible)
-    if read.acts and not read.effect and changed(possible.figures, read.acts) != possible.figures:
-        return intent, False  # it shows only later, such as a promise to a user who is left out
+    later = read.acts and not read.effect and changed(possible.figures, read.acts) != possible.figures
     found = weigh(Signs(line, possible, read, line.voice.language))
+    if later:  # it shows only where somebody is served, such as a promise to a user who is left out
+        acts = _serving(possible, read, found)
+        return (_done(line, possible, dataclasses.replace(found, acts=acts)), True) if acts else (intent, False)
     heard: Said = (read.supposes and bool(read.effect), read.effect or frozenset())
     if any(isinstance(getattr(act, "whom", None), Named) for act in found.acts) and stranger(line.text, context):
         return intent, False  # who is that?
@@ -231,13 +246,18 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     either = sum(found.shares.get((supposed, found.said[1]), 0.0) for supposed in (False, True))
     if found.said[0] or (line.is_asked and found.share < SURE < either):  # nothing is done
         asked = not intent.details if intent.kind == "question" else line.is_asked
-        sure = either > (SURER if intent.topic == "concept" else LIKELY if asked else SURE)
+        sure = either > (SUREST if intent.topic == "concept" else LIKELY if asked else SURE)
         supposed = dataclasses.replace(line.answer.question("what_if"), acts=(Suppose(acts=found.acts),))
         return (supposed if sure else intent), sure
+    if not acts and _takes_unsaid(line, found):
+        return intent if intent.kind == "clarify" else asking_whether(_done(line, possible, found), line.voice), False
     if found.acts and (_may_be_of_another(possible) or _forgets_the_others(possible.line, found)):
         return asking_whether(_done(line, possible, found), line.voice), False
     takes = _takes_away(read.acts)
-    if share >= (NAMED if names_its_aim else SURER if denied else SURE if takes else AGREED):
+    if acts and _is_less(possible.line, read, found):
+        return intent, False
+    undoes = intent.kind == "command" and found.said == heard
+    if share >= (NAMED if names_its_aim or undoes else SURER if denied else SURE if takes else AGREED):
         return intent, found.said == heard and share >= SURE
     meant = _done(line, possible, found)
     aims = any(isinstance(act, Aim) and act.objective != context.objective for act in found.acts)
@@ -252,8 +272,17 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
         judged = dataclasses.replace(meant, recogniser=OFFLINE)
         done = meant if short or surely else guarded(line.text, context, judged)
         return done, done.kind != "clarify"
-    unsure = bool(read.effect) or (intent.kind == "clarify" and found.share > LIKELY and not negated)
+    only_if = is_supposed(possible.line.plain) and not line.sentence.chances.is_order
+    unsure = bool(read.effect) or (intent.kind == "clarify" and found.share > LIKELY and not (negated or only_if))
     return (asking_whether(meant, line.voice) if unsure else intent), False
+
+
+def _serving(possible: Possible, read: Read, found: Weighed) -> tuple[Act, ...]:
+    """What a line's reader hears of users who are not served, if it likely serves them, too: "add 4, with weight 2"."""
+    users = tuple(user for user in users_of(read.acts) if user in possible.out)
+    back = {((OUT, user), None) for user in users}
+    share = sum(share for (supposed, effect), share in found.shares.items() if back <= effect and not supposed)
+    return (Serve(whom=Named(users)), *read.acts) if users and share >= SURE else ()
 
 
 def _may_be_of_another(possible: Possible) -> bool:
@@ -270,6 +299,26 @@ def _forgets_the_others(line: Anchored, found: Weighed) -> bool:
     return bool(others) and others.isdisjoint(found.used) and any(isinstance(act, Limit | Scale) for act in found.acts)
 
 
+def _takes_unsaid(line: Line, found: Weighed) -> bool:
+    """Whether a line is taken for one that only takes from users whom it names, with no word that says so.
+
+    "User 3 may have more" drops no floor; behind a line that took something, "and user 1" does.
+    """
+    plain, named = line.sentence.plain, {user for anchor in line.anchored.anchors for user in anchor.whom}
+    said = _takes_away(line.context.acts) or _LEAVING.search(plain) or _LIFTING.search(plain)
+    taken = [
+        (kind == OUT) == bool(value) and user in named and kind != "weights" for (kind, user), value in found.said[1]
+    ]
+    return bool(found.acts) and not said and all(taken)
+
+
+def _is_less(line: Anchored, read: Read, found: Weighed) -> bool:
+    """Whether a line is taken for a part of what its reader hears, and somebody or a limit that it names forgotten."""
+    named, lifted = {anchor for anchor in line.anchors if anchor.kind == "users"}, lifted_in(line.plain)
+    gone, said = ({act.kind for act in acts if isinstance(act, Drop)} for acts in (read.acts, found.acts))
+    return found.said[1] < (read.effect or frozenset()) and not (named <= found.used and gone & {*lifted} <= said)
+
+
 def _takes_away(acts: Iterable[Act]) -> bool:
     """Whether acts take a limit, a promise or service from somebody, or the last change back."""
     return any(isinstance(act, Drop | LeaveOut | Undo) for act in acts)
@@ -280,8 +329,12 @@ def _keeps(line: Line, read: Read, found: Weighed, *, denied: bool) -> bool:
 
     "User 2's minimum stays", "don't drop it", "don't cut user 5 off".
     """
-    loses_service = any(isinstance(act, LeaveOut) for act in found.acts)
+    instead = any(isinstance(act, Serve) for act in found.acts)  # "not user 2 but user 3"
+    loses_service = any(isinstance(act, LeaveOut) for act in found.acts) and not instead
     loses_service &= not read.effect or not line.sentence.chances.is_order  # "don't serve user 5" is clear
+    promised = any(isinstance(act, Limit) and act.kind == "min_rate_bps" for act in found.acts)
+    if promised and not read.effect and _NEITHER.search(line.anchored.plain):  # "user 3 neither"
+        return True
     stays = is_all("kept", line.said) or is_denied(line.sentence.plain) or (denied and loses_service)
     return bool(stays) and _takes_away(found.acts)
 
@@ -330,6 +383,9 @@ def _stands(line: Line, intent: Intent) -> bool:
     if intent.kind == "question":
         missing = "missing_share" in intent.details and not speaks_of(line.sentence.plain)
         certain = missing or intent.topic not in ("other", "what_if", "concept", "capabilities")
+        certain &= (
+            intent.topic != "step" or line.is_asked or asks_without_a_mark(line.sentence.plain)
+        )  # "one watt more"
         return intent.recogniser == NAME or certain
     if intent.kind == "clarify":
         question = context.question

@@ -145,7 +145,7 @@ def _light(changes: Sequence[Change]) -> tuple[Change, ...]:
         if effect not in effects:
             effects[effect] = frozenset(items.setdefault(item, item) for item in effect)
         acts = change.acts if any(isinstance(act, Undo) for act in change.acts) else _SOMETHING[: len(change.acts)]
-        found.append(dataclasses.replace(change, acts=acts, effect=effects[effect], users=(), model=None))
+        found.append(dataclasses.replace(change, acts=acts, effect=effects[effect]))
     return tuple(found)
 
 
