@@ -161,7 +161,8 @@ FIRST = Context(user_names=TALK.user_names)
         ("max rate, users 1 to 4 500k each", {"min_rate_bps": dict.fromkeys("1234", 5e5)}),
         ("Máxima tasa, usuarios 1 a 4 500 kbps cada uno", {"min_rate_bps": dict.fromkeys("1234", 5e5)}),
         ("Débit maximal, utilisateurs 1 à 4 500 kbit/s chacun", {"min_rate_bps": dict.fromkeys("1234", 5e5)}),
-        ("max rate, increase the fixed power to 8 W", {"circuit_power_w": 8.0}),
+        ("max rate, increase the static power to 8 W", {"circuit_power_w": 8.0}),
+        ("maximise the rate at fixed power 10 W", {"max_power_w": 10.0}),
         (
             "max rate, 1 Mbit/s at least for user 4, and user 8 no more than 5 Mbit/s",
             {"min_rate_bps": {"4": 1e6}, "max_rate_bps": {"8": 5e6}},

@@ -62,6 +62,7 @@ _KEPT = Beside(
     deferred(rf"(?i)\s*号?\s*(?:{either('figures', 'users', 'stays')})"),
 )
 _OUT_ALONE = deferred(rf"(?i)\s*号?[\s,:\uff0c]*(?:{either('figures', 'users', 'out_alone')})\s*")
+_OUT_AHEAD = deferred(rf"(?i)(?:{either('figures', 'users', 'leaving')})+\s*(?:{GIVEN_TO}\s*)*$")
 _SPARED = deferred(rf"(?i)(?:{either('figures', 'users', 'spares')})\s*(?:{GIVEN_TO}\s*)*$")
 _AND = deferred(rf"(?i)\b(?:{AND}|but|pero|mais)\b")
 _SILENT = ("kept", "stale")
@@ -281,7 +282,8 @@ class Allotments:
         if role == "users" and self._is_out_of_others(mention):
             return "leave_out"
         if role in ("leave_out", "unclear", "kept") and self._stays(mention):
-            return "kept"
+            others = [each for each in self._found if each.role == "others" and each.start >= mention.end]
+            return "users" if others and _LEAVING.search(self._plain, others[0].end) else "kept"  # "keep 1, rest out"
         sure = _SURE_OF_SILENCE if role in _SILENT else _SURE_OF_A_ROLE  # nobody is to be dropped unheard
         unsaid = role == "leave_out" and _LEAVING.search(self._plain) is None  # "user 3 has priority"
         if role == "given" or (role != "unclear" and chances[role] > sure and said[role] > _SAID and not unsaid):
@@ -304,6 +306,9 @@ class Allotments:
         if ahead is None and behind is None:
             return False
         last = mention.end if behind is None else behind.end()
+        of_the_next = _OUT_AHEAD.search(self._plain, last, end)  # "keep user 5 drop user 6"
+        if of_the_next and any(each.start == end for each in self._found):
+            end = of_the_next.start()
         and_ = _AND.search(self._plain, last, end)  # "keep user 5 and drop user 6"
         out = _LEAVING.search(self._plain, last, and_.start() if and_ else end)
         return out is None and not self._has_figures(start, end)

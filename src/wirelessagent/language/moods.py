@@ -13,7 +13,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from wirelessagent.language.intent import CONSTRAINTS
-from wirelessagent.language.text import Span, clause_start, is_within
+from wirelessagent.language.text import USER_NOUN, Span, clause_start, is_within
 from wirelessagent.language.vocabulary import languages_of
 from wirelessagent.language.word_tables import deferred, either, table, words_of
 
@@ -201,6 +201,8 @@ _GENERAL: Mapping[str, tuple[str, ...]] = MappingProxyType({
     "ceilings": ("max_power_w", "max_rate_bps", "subcarrier_max_power_w"),
 })  # fmt: skip
 """What "the limits" and "the caps" may be."""
+_TO = rf"(?:of|on|{either('figures', 'users', 'given_to')}|{either('figures', 'users', 'articles')})"
+_OF_SOMEBODY = deferred(rf"(?i)\s*(?:{_TO}\s*)+{USER_NOUN}")  # "the limit of user 3", which is none of all
 
 
 def dropped_in(plain: str, context: Context | None) -> tuple[tuple[str, ...], tuple[Span, ...]]:
@@ -210,7 +212,8 @@ def dropped_in(plain: str, context: Context | None) -> tuple[tuple[str, ...], tu
     (('max_power_w',), ('max_power_w', 'weights'))
     """
     found, alone = lifted_in(plain), list(places(_lifted("alone"), plain))
-    named, general = [name for name in CONSTRAINTS if name in found], [name for name in _GENERAL if name in found]
+    named = [name for name in CONSTRAINTS if name in found]
+    general = [name for name in _GENERAL if name in found and not _OF_SOMEBODY.match(plain, found[name][1])]
     if alone or (general and not named):
         held = () if context is None or alone else tuple(context.constraints)
         meant = (name for name in CONSTRAINTS if name in held and any(name in _GENERAL[each] for each in general))

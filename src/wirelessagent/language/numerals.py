@@ -63,10 +63,10 @@ _GROUPED_AHEAD = deferred(  # "en bloques de four"
 )
 _AS_FEW = deferred(rf"(?i)\b{any_word('figures', 'numbers', 'degrees')}\s+$")
 NUMBERED = deferred(
-    rf"(?i)\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:[,&/–-]|{any_word('figures', 'numbers', 'joins', 'ors')}|"
-    rf"{any_word('figures', 'users', 'to')})\s*)*$"
+    rf"(?i)\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|{any_word('figures', 'numbers', 'joins', 'ors')}|&|/)\s*)*$"
 )
-"""What stands before a number that names a user: "user ", "users 1 and ", "users 1 to "."""
+"""What stands before a number that names a user: "user ", "users 1 and "."""
+_RANGED = deferred(rf"(?i)\b{USER_NOUN}\s*[0-9]{{1,2}}\s*(?:[–-]|{any_word('figures', 'users', 'to')})\s*$")
 _EACH = "".join(f"(?<!{word} )" for word in words_of("figures", "users", "of_each"))
 _NAMED = deferred(f"(?i){_EACH}{NUMBERED.pattern.removeprefix('(?i)')}")
 _PLURAL = deferred(rf"(?i)\b{any_word('figures', 'users', 'plurals')}\s*$")
@@ -195,7 +195,8 @@ def _in_digits(text: str, match: re.Match[str], language: str) -> Number:
     digits, start, end = match[group], match.start(group), match.end()
     is_name = _is_name(text, start)
     scaled = _SCALED.match(text, match.end(group)) is not None
-    if " " in digits and (is_name or (scaled and _LISTED_AHEAD.search(text, 0, start))):
+    ranged = _RANGED.search(text, max(0, start - 40), start) is not None  # "users 1 to 4 500 kbit/s"
+    if " " in digits and (is_name or ranged or (scaled and _LISTED_AHEAD.search(text, 0, start))):
         digits = digits.split(" ")[0]  # "UE 2 750 kbit/s", "1 and 2 300k": a name, then a figure
         return Number(value=Decimal(digits), start=start, end=start + len(digits), form="digits")
     value = _PARTS.get(digits) or _digits_value(digits, language)

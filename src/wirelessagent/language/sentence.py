@@ -21,6 +21,7 @@ from wirelessagent.language.sentence_model import START, Chances, Word, shipped_
 from wirelessagent.language.stated import Reading
 from wirelessagent.language.text import (
     AND,
+    USER_NOUN,
     WORD_OR_SIGN,
     Span,
     blanked,
@@ -63,7 +64,9 @@ _HARDLY = 0.12
 """How unlikely a text is to order something as a whole, to be asked about whatever a part of it says."""
 _FEWEST_WORDS = 3
 """Beside figures and users, of what tells something by itself."""
-_SAME_BUT = deferred(rf"(?i)\s*(?:{either('figures', 'kept', 'same_but')})\s*(?=\w)")
+_SAME_BUT = deferred(  # and neither "the same but not user 3" nor "keep all but user 2"
+    rf"(?i)\s*(?:{either('figures', 'kept', 'same_but')})\s*(?=\w)(?!(?:not|for|pas|no|nicht|{USER_NOUN})\b)"
+)
 _AND, _AND_LAST = deferred(rf"(?i)\b(?:{AND})\b"), deferred(rf"(?i)\b(?:{AND})\s*$")
 
 

@@ -154,7 +154,7 @@ def _is_figure(plain: str, number: Number) -> bool:
     return number.form == "chinese" and _CHINESE_FIGURE.search(plain, number.start, number.end + 1) is not None
 
 
-_CHANGED = Beside(
+CHANGED_BY = Beside(
     deferred(rf"(?i)(?:{either('figures', 'one', 'changed_by')})\s*(?:about|around|roughly)?\s*$"),
     deferred(rf"(?i)\s*(?:{either('figures', 'one', 'changed_behind')})(?!\w)"),
 )
@@ -349,7 +349,7 @@ class Reading:
     def changes_by(self, figure: Quantity) -> bool:
         """Whether something is to become more or less by a share: "half the power less"."""
         span = _SHARED.widened(self.plain, (figure.phrase_start, figure.phrase_end))
-        return "减" in figure.text or _CHANGED.is_at(self.plain, *span)  # 减半
+        return "减" in figure.text or CHANGED_BY.is_at(self.plain, *span)  # 减半
 
     def take_group(self, size: float, span: Span) -> None:
         """Take how many subcarriers go together, with the words beside that say so."""

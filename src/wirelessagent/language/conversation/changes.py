@@ -19,6 +19,7 @@ from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, RATES
 from wirelessagent.language.moods import may_be_lifted, named_in
 from wirelessagent.language.request import Key, acts_between, changed, with_the_assumed
 from wirelessagent.language.sentence import BUILT_IN
+from wirelessagent.language.stated import CHANGED_BY
 from wirelessagent.language.text import clause_end
 
 _BLOCKS = "resource_block_group_size"
@@ -63,6 +64,7 @@ def _figure_for(possible: Possible, figure: Anchor, kind: str, value: float, gro
     if not held and kind == "max_power_w":  # what is radiated, which can only become less
         held, ways = [Limit(kind=kind, value=possible.radiated_w)], ways[1:]
     of_one = kind in FIGURES_OF_USERS and not group.users and len(held) == 1 and isinstance(held[0].whom, Named)
+    of_one = of_one and not CHANGED_BY.is_at(possible.line.plain, figure.start, figure.end)
     for form, sign in ways if held and not of_one else ():  # one who has a figure is not everybody
         sums = [dataclasses.replace(each, value=each.value + sign * value) for each in held]
         yield group.change(sums, form, kind, figure)

@@ -255,7 +255,8 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
         return asking_whether(_done(line, possible, found), line.voice), False
     takes = _takes_away(read.acts)
     if acts and _is_less(possible.line, read, found):
-        return intent, False
+        named = {act.kind for act in read.acts if isinstance(act, Drop)} <= {*lifted_in(possible.line.plain)}
+        return (intent if named else asking_whether(_done(line, possible, found), line.voice)), False
     undoes = intent.kind == "command" and found.said == heard
     if share >= (NAMED if names_its_aim or undoes else SURER if denied else SURE if takes else AGREED):
         return intent, found.said == heard and share >= SURE
