@@ -168,6 +168,7 @@ FIRST = Context(user_names=TALK.user_names)
             {"min_rate_bps": {"4": 1e6}, "max_rate_bps": {"8": 5e6}},
         ),
         ("max rate, leave out user 6 and user 4 at least 1 Mbps", {"min_rate_bps": {"4": 1e6}, "leave_out": ("6",)}),
+        ("max rate, 2 Mbit/s pour le 3, et le 8 pas sous 350 kbit/s", {"min_rate_bps": {"3": 2e6, "8": 3.5e5}}),
         (
             "set rmin(user 4)=1.1 Mbps, rmax(user 8)=2 Mbps, goal=max sum rate",
             {"min_rate_bps": {"4": 1.1e6}, "max_rate_bps": {"8": 2e6}},

@@ -340,7 +340,11 @@ def _number(word: str) -> int | None:
     return None if value is None else int(value)
 
 
-_OWN_BOUND = deferred(rf"(?i)\s+{any_word('figures', 'bounds', 'at_least', 'at_most')}(?!\w)")
+_NOT = either("moods", "negation", "clause")
+_OWN_BOUND = deferred(
+    rf"(?i)\s+(?:{any_word('figures', 'bounds', 'at_least', 'at_most')}|"
+    rf"(?:{_NOT})\s+{any_word('figures', 'bounds', 'above', 'below')})(?!\w)"
+)
 _OWN_WORDS = deferred(rf"(?i)[0-9]|(?:{either('figures', 'users', 'leaving')})\s*(?:{GIVEN_TO}\s*)*$")
 _COUNTED_AGAIN = deferred(rf"号?这?(?P<count>[两二三四五六七八九十])[个位名](?:{ZH_NOUN})?")
 
