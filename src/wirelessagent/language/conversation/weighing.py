@@ -227,7 +227,7 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     later = read.acts and not read.effect and changed(possible.figures, read.acts) != possible.figures
     found = weigh(Signs(line, possible, read, line.voice.language))
     if later:  # it shows only where somebody is served, such as a promise to a user who is left out
-        acts = _serving(possible, read, found)
+        acts = () if read.supposes or line.is_asked else _serving(possible, read, found)
         return (_done(line, possible, dataclasses.replace(found, acts=acts)), True) if acts else (intent, False)
     heard: Said = (read.supposes and bool(read.effect), read.effect or frozenset())
     if any(isinstance(getattr(act, "whom", None), Named) for act in found.acts) and stranger(line.text, context):
