@@ -22,7 +22,7 @@ from wirelessagent.language.numerals import Number, factors
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.request import numbered
 from wirelessagent.language.stated import CARRIERS, EACH_CARRIER, POWER_NOUNS, is_spared, shares_power
-from wirelessagent.language.text import AND, Beside, Phrases, Span, clause_start, is_chinese
+from wirelessagent.language.text import AND, AND_ALONE, Beside, Phrases, Span, clause_start, is_chinese
 from wirelessagent.language.word_tables import any_word, deferred, either, words_of
 
 # The share of those who have a rate or a weight, among all users named and among those of each role.
@@ -60,7 +60,6 @@ _OF_CIRCUITS = either("figures", "bounds", "circuit")
 _CIRCUIT = deferred(  # "the static power to 3 W", but not, behind a figure, "2 W static power, 10 W …"
     rf"(?i)(?:^|\w.*|[,;.、，；。])\s*(?:{_OF_CIRCUITS})(?:[\s:=]|{CHANGES}|{LEADS}|为|{ARTICLES})*$"
 )
-_ALSO = deferred(rf"(?i)\b(?:{AND})\b")
 _SURE, _PERHAPS = 0.8, 0.2
 _ONCE, _MOST_POWERS, _HARDLY = ("max_power_w", "circuit_power_w", "subcarrier_max_power_w"), 4, 0.01
 
@@ -277,7 +276,7 @@ def _as_bounded(
     bound = BOUNDED.get(figure.comparator or "") if figure.kind == "rate" else None
     ahead = plain[clause_start(plain, figure.phrase_start, beside[0]) : figure.phrase_start]
     raised = _RAISED.search(ahead) if figure.kind == "rate" and figure.comparator is None else None
-    joints = [each.end() for each in _ALSO.finditer(ahead, 0, raised.start() + 1)] if raised else []
+    joints = [each.end() for each in AND_ALONE.finditer(ahead, 0, raised.start() + 1)] if raised else []
     if raised and _CAPS.search(ahead, max(joints, default=0)) is None:  # not "drop the cap and raise user 3 to …"
         bound = "min_rate_bps"
     return chances if bound is None else moved(chances, (*RATES, "both"), bound)

@@ -44,9 +44,10 @@ _SPACED = (  # "users 1 2 3", and nothing that is counted behind
     rf"(?<=s )[0-9]{{1,2}}(?:\s+[0-9]{{1,2}}){{1,11}}(?:\s+{AND}\s+[0-9]{{1,2}})?(?![0-9.,]*[0-9%]|\s+[0-9])"
     rf"(?!\s*(?!{any_word('figures', 'users', 'goes_on')}\b)[A-Za-zμ%×*^/])"
 )
+_ENDS_THERE = rf"(?!\s+(?:{'|'.join(listed('scales'))}|point|and\s+an?\s|coma|y\s+medi|virgule|et\s+demi|komma)\b)"
+"""Behind a number in words that does not go on."""
 _SPACED_WORDS = (  # "users one three and four", and no number goes on behind
-    rf"(?:(?<=s )|(?<=utzer )){WORD_NUMBER}(?:\s+{WORD_NUMBER})+(?:\s+{AND}\s+{WORD_NUMBER})?\b"
-    rf"(?!\s+(?:{'|'.join(listed('scales'))}|point|and\s+an?\s|coma|y\s+medi|virgule|et\s+demi|komma)\b)"
+    rf"(?:(?<=s )|(?<=utzer )){WORD_NUMBER}(?:\s+{WORD_NUMBER})+(?:\s+{AND}\s+{WORD_NUMBER})?\b{_ENDS_THERE}"
 )
 _LIST = (
     rf"(?:{_SPACED}|{_SPACED_WORDS}|"
@@ -162,10 +163,7 @@ NOBODY = Phrases(either("figures", "users", "nobody"))
 _INCLUSIVE = deferred(rf"(?i)(?:\s*[,(\uff0c]?\s*{_INCLUDED}\s*\)?,?)?\s*")
 _BEFORE_EACH = deferred(rf"{_INCLUSIVE.pattern},?\s*(?:(?:{either('figures', 'users', 'takes')})\s+)?")
 _EACH_OF = deferred(rf"(?i)(?:{either('figures', 'users', 'each_of')})\s*{ANY_NOUN}?\s*(?:from|de|von|entre)?\s*$")
-_ROW = deferred(
-    rf"(?i)\b{WORD_NUMBER}(?:\s+{WORD_NUMBER})+\s+(?:{AND})\s+{WORD_NUMBER}\b"
-    rf"(?!\s+(?:{'|'.join(listed('scales'))}|point|and\s+an?\s|coma|y\s+medi|virgule|et\s+demi|komma)\b)"
-)
+_ROW = deferred(rf"(?i)\b{WORD_NUMBER}(?:\s+{WORD_NUMBER})+\s+(?:{AND})\s+{WORD_NUMBER}\b{_ENDS_THERE}")
 _MOST_IN_A_ROW = 12
 _LONGEST_RANGE, _NEAR, MOST_USERS, _FAR_OFF = 100, 25, 100, 5
 """How many users a range may have, how near what leaves out stands, and from where on a number behind users that is so

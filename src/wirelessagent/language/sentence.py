@@ -21,6 +21,7 @@ from wirelessagent.language.sentence_model import START, Chances, Word, shipped_
 from wirelessagent.language.stated import Reading
 from wirelessagent.language.text import (
     AND,
+    AND_ALONE,
     USER_NOUN,
     WORD_OR_SIGN,
     Span,
@@ -67,7 +68,7 @@ _FEWEST_WORDS = 3
 _SAME_BUT = deferred(  # and neither "the same but not user 3" nor "keep all but user 2"
     rf"(?i)\s*(?:{either('figures', 'kept', 'same_but')})\s*(?=\w)(?!(?:not|for|pas|no|nicht|{USER_NOUN})\b)"
 )
-_AND, _AND_LAST = deferred(rf"(?i)\b(?:{AND})\b"), deferred(rf"(?i)\b(?:{AND})\s*$")
+_AND_LAST = deferred(rf"(?i)\b(?:{AND})\s*$")
 
 
 Placed = TypeVar("Placed", Found, Unit)
@@ -192,11 +193,11 @@ class Sentence:
             next_ = min([clause_end(self.plain, end), *(begin for begin, _ in marked if begin >= end)])
             meant = self.plain[end:next_]
             denied = any(name.partition(":")[0] in ("negation", "refusal", "contrast") for name, _ in classes_in(meant))
-            able = not denied and _AND.match(meant.strip()) is None and self._is_aim(_AND_LAST.sub("", meant))
+            able = not denied and AND_ALONE.match(meant.strip()) is None and self._is_aim(_AND_LAST.sub("", meant))
             ends = [start, *(begin for begin, _ in reversed(marked) if begin < start)] if able else []
             for last in ends:
                 ahead = max([clause_start(self.plain, last), *(to for _, to in marked if to <= last)])
-                ahead = max([ahead, *(match.end() for match in _AND.finditer(self.plain, ahead, last))])
+                ahead = max([ahead, *(match.end() for match in AND_ALONE.finditer(self.plain, ahead, last))])
                 if self._is_aim(self.plain[ahead:last]):
                     gone += [(ahead, last), (start, end)]
                     break

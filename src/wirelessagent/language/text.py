@@ -43,6 +43,7 @@ USER_NOUN = any_word("figures", "users", "nouns") + r"(?:\s*(?:number|nummer|nú
 
 AND = any_word("figures", "numbers", "joins")
 """What joins two of a kind, in the languages that write it apart."""
+AND_ALONE = deferred(rf"(?i)\b(?:{AND})\b")
 
 _BREATH = deferred(rf"(?<=[{CJK}]{{3}}) (?=[{CJK}]{{3}})")
 CLAUSE_END = r"[,;:!?()\n\uff0c\uff1b。、…—]|\.(?![0-9])"

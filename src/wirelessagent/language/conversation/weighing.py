@@ -249,14 +249,13 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
         sure = either > (SUREST if intent.topic == "concept" else LIKELY if asked else SURE)
         supposed = dataclasses.replace(line.answer.question("what_if"), acts=(Suppose(acts=found.acts),))
         return (supposed if sure else intent), sure
-    if not acts and _takes_unsaid(line, found):
-        return intent if intent.kind == "clarify" else asking_whether(_done(line, possible, found), line.voice), False
-    if found.acts and (_may_be_of_another(possible) or _forgets_the_others(possible.line, found)):
+    unsaid, less = not acts and _takes_unsaid(line, found), acts and _is_less(possible.line, read, found)
+    forgets = _may_be_of_another(possible) or _forgets_the_others(possible.line, found)
+    if (unsaid and intent.kind == "clarify") or (less and not forgets and _names_what_goes(possible.line, read)):
+        return intent, False
+    if unsaid or less or forgets:
         return asking_whether(_done(line, possible, found), line.voice), False
     takes = _takes_away(read.acts)
-    if acts and _is_less(possible.line, read, found):
-        named = {act.kind for act in read.acts if isinstance(act, Drop)} <= {*lifted_in(possible.line.plain)}
-        return (intent if named else asking_whether(_done(line, possible, found), line.voice)), False
     undoes = intent.kind == "command" and found.said == heard
     if share >= (NAMED if names_its_aim or undoes else SURER if denied else SURE if takes else AGREED):
         return intent, found.said == heard and share >= SURE
@@ -310,7 +309,7 @@ def _takes_unsaid(line: Line, found: Weighed) -> bool:
     taken = [
         (kind == OUT) == bool(value) and user in named and kind != "weights" for (kind, user), value in found.said[1]
     ]
-    return bool(found.acts) and not said and all(taken)
+    return not said and all(taken)
 
 
 def _is_less(line: Anchored, read: Read, found: Weighed) -> bool:
@@ -318,6 +317,11 @@ def _is_less(line: Anchored, read: Read, found: Weighed) -> bool:
     named, lifted = {anchor for anchor in line.anchors if anchor.kind == "users"}, lifted_in(line.plain)
     gone, said = ({act.kind for act in acts if isinstance(act, Drop)} for acts in (read.acts, found.acts))
     return found.said[1] < (read.effect or frozenset()) and not (named <= found.used and gone & {*lifted} <= said)
+
+
+def _names_what_goes(line: Anchored, read: Read) -> bool:
+    """Whether a line names each limit that its reader hears it drop."""
+    return {act.kind for act in read.acts if isinstance(act, Drop)} <= {*lifted_in(line.plain)}
 
 
 def _takes_away(acts: Iterable[Act]) -> bool:
