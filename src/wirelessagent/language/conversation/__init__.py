@@ -13,6 +13,7 @@ from collections.abc import Mapping
 from wirelessagent.language.conversation import answers, commands, questions
 from wirelessagent.language.conversation.answers import unanswered
 from wirelessagent.language.conversation.line import NAME, Line, called, has, only_called, with_users
+from wirelessagent.language.conversation.parts import by_parts
 from wirelessagent.language.conversation.weighing import weighed
 from wirelessagent.language.guard import guarded
 from wirelessagent.language.intent import Intent, acts_of, stated
@@ -42,7 +43,7 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
         return read_by_rules(text, context, recogniser)
     line = Line.of(with_users(text, context.called), context)
     first = OfflineRecogniser() if recogniser.is_spared else recogniser
-    intent, sure = weighed(line, read_by_rules(text, context, first))
+    intent, sure = _meant(line, first)
     question = context.question
     aimless = question.pending and not (context.objective or question.objective or question.users)
     if aimless and intent.kind == "clarify":  # limits were said, and nothing is open but their aim
@@ -50,6 +51,13 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     if first is recogniser:
         return intent
     return dataclasses.replace(intent, recogniser=NAME) if sure else read_by_rules(text, context, recogniser)
+
+
+def _meant(line: Line, recogniser: Recogniser) -> tuple[Intent, bool]:
+    """What a line means behind a request, as a whole or by its parts, and whether it surely does."""
+    intent, sure = weighed(line, read_by_rules(line.text, line.context, recogniser))
+    parts = None if line.context.objective is None else by_parts(line, intent, lambda part: _meant(part, recogniser))
+    return (intent, sure) if parts is None else (parts, True)
 
 
 def _beside_what_waits(line: Line, intent: Intent, recogniser: Recogniser) -> Intent:

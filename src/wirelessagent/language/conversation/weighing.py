@@ -228,7 +228,7 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     found = weigh(Signs(line, possible, read, line.voice.language))
     if later:  # it shows only where somebody is served, such as a promise to a user who is left out
         acts = () if read.supposes or line.is_asked else _serving(possible, read, found)
-        return (_done(line, possible, dataclasses.replace(found, acts=acts)), True) if acts else (intent, False)
+        return (intent_of(line, possible, acts), True) if acts else (intent, False)
     heard: Said = (read.supposes and bool(read.effect), read.effect or frozenset())
     if any(isinstance(getattr(act, "whom", None), Named) for act in found.acts) and stranger(line.text, context):
         return intent, False  # who is that?
@@ -254,12 +254,12 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     if (unsaid and intent.kind == "clarify") or (less and not forgets and _names_what_goes(possible.line, read)):
         return intent, False
     if unsaid or less or forgets:
-        return asking_whether(_done(line, possible, found), line.voice), False
+        return asking_whether(intent_of(line, possible, found.acts), line.voice), False
     takes = _takes_away(read.acts)
     undoes = intent.kind == "command" and found.said == heard
     if share >= (NAMED if names_its_aim or undoes else SURER if denied else SURE if takes else AGREED):
         return intent, found.said == heard and share >= SURE
-    meant = _done(line, possible, found)
+    meant = intent_of(line, possible, found.acts)
     aims = any(isinstance(act, Aim) and act.objective != context.objective for act in found.acts)
     short = len(possible.line.words) < FRAMED
     negated = intent.asks in _DENIED and bool(denials)
@@ -412,9 +412,8 @@ def _is_taken_off(line: Line) -> bool:
     return bool(below) and bare and "up" not in line.sentence.concepts
 
 
-def _done(line: Line, possible: Possible, found: Weighed) -> Intent:
+def intent_of(line: Line, possible: Possible, acts: tuple[Act, ...]) -> Intent:
     """The intent of what is meant, with what it changes in words."""
-    acts = found.acts
     if len(acts) == 1 and isinstance(acts[0], Undo):
         return line.answer.command("undo", steps=float(acts[0].steps or 1))
     before, after = possible.figures, changed(possible.figures, acts)
