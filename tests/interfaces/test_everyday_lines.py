@@ -200,3 +200,32 @@ def test_what_is_dictated_without_commas(said: str, aim: str, limits: dict[str, 
 def test_the_least_rate_is_an_aim_with_a_power(said: str) -> None:
     intent = understood(said, FIRST, OfflineRecogniser())
     assert (intent.objective, dict(intent.constraints)) == ("max_min_rate", {"max_power_w": 10.0})
+
+
+@pytest.mark.parametrize(
+    ("said", "limits"),
+    [
+        ("Nimm Nutzer 8 raus und begrenze die 5 auf 1 Mbit/s.", {"leave_out": ("8",), "max_rate_bps": {"5": 1e6}}),
+        ("too thin. 3 Mbit/s for user 3, and don't serve user 8", {"leave_out": ("8",), "min_rate_bps": {"3": 3e6}}),
+        ("Schaltung braucht 3,8 W. Und das Minimum der 3 kann weg.", {"circuit_power_w": 3.8, "min_rate_bps": None}),
+        ("quita al 7 y limita el 2 a 1,5 Mbit/s", {"leave_out": ("7",), "max_rate_bps": {"2": 1.5e6}}),
+        ("coupe le 6, et 12 W au total", {"leave_out": ("6",), "max_power_w": 12.0}),
+        ("踢掉8号，总功率降到12瓦", {"leave_out": ("8",), "max_power_w": 12.0}),
+    ],
+)  # fmt: skip
+def test_a_line_of_several_things_is_the_sum_of_its_parts(said: str, limits: dict[str, Any]) -> None:
+    held = {**HELD.constraints, **limits}
+    assert after(said)[1] == {name: value for name, value in held.items() if value is not None}
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "user 4 either 1 or 2 Mbit/s, user 5 500 kbit/s",
+        "he said drop user 6, and give user 4 2 Mbit/s", "drop user 6 and give user 4 2 Mbit/s if it rains",
+        "should we drop user 6, and give user 4 2 Mbit/s?",
+        "Sure, crank it to 20 W and leave out user 4, because the electricity bill isn't insane enough already /s",
+    ],
+)  # fmt: skip
+def test_parts_of_what_orders_nothing_or_is_at_odds_are_not_done(said: str) -> None:
+    assert after(said) == (HELD.objective, dict(HELD.constraints))

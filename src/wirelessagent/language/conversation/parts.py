@@ -28,12 +28,14 @@ Weigh: TypeAlias = Callable[[Line], tuple[Intent, bool]]
 _CUT = deferred(rf"(?i)\s*[,;\n\uff0c\uff1b。]\s*(?:(?:{AND})\s+)?|[.!](?:\s+(?:{AND})\b)?\s+|\s+(?:{AND})\s+")
 _MOST_CUTS = 4
 _WHO = ("users", "number")
+_AT_ODDS = frozenset({"rates_crossed", "conflict", "one_of", "unit_missing", "impossible", "some_users"})
+"""What is asked about a line whose parts can't all hold, or leave open which of two is meant."""
 
 
 def by_parts(line: Line, whole: Intent, weigh: Weigh) -> Intent | None:
     """What a line means as the sum of its parts; None where that is not sure, or no more than it is as a ``whole``."""
-    orders = line.sentence.chances.is_order and not line.is_asked
-    if not orders or whole.kind not in ("allocate", "clarify") or line.context.awaits == "clarification":
+    orders = line.sentence.chances.is_order and not line.is_asked and whole.kind in ("allocate", "clarify")
+    if not orders or whole.asks in _AT_ODDS or line.context.awaits == "clarification":
         return None
     possible = Possible(line.anchored, line.context)
     acts = next((acts for start, end in _cuts(line) if (acts := _together(line, start, end, weigh))), None)
