@@ -81,7 +81,6 @@ STATED: list[tuple[str, dict[str, Any]]] = [
     ("un quart de la puissance reste en réserve", {"max_power_w": 15.0}),
     ("限速名单：5号、6号两位用户各1.6 Mbps", {"max_rate_bps": {"5": 1.6e6, "6": 1.6e6}}),
     # figures said once more
-    ("die schaltung braucht fünf watt glaub ich doch ja fünf watt", {"circuit_power_w": 5.0}),
     ("circuits 5 W and yes, transmit 5 W", {"circuit_power_w": 5.0, "max_power_w": 5.0}),
     ("circuit 10 W (10 W transmit power)", {"circuit_power_w": 10.0, "max_power_w": 10.0}),
     # weights

@@ -21,7 +21,6 @@ from wirelessagent.language.mentions import (
     GIVEN_TO,
     JOINT_WORDS,
     NOBODY,
-    WITHOUT,
     Mention,
     Role,
 )
@@ -33,11 +32,9 @@ from wirelessagent.language.stated import Doubt, Multiple, Reading
 from wirelessagent.language.text import AND, Beside, Phrases, Span, clause_end, clause_start
 from wirelessagent.language.word_tables import any_word, deferred, either
 
-_SURE_OF_A_ROLE, _SURE_OF_SILENCE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.9, 0.5, 0.45
+_SURE_OF_A_ROLE, _SURE_OF_SILENCE, _SURE_OF_AN_OWNER = 0.55, 0.9, 0.45
 _SAID = 0.4
 _ADDS = Phrases(either("figures", "users", "adds"))
-_NOT_AHEAD = deferred(rf"(?i)(?:{either('figures', 'one', 'not_who')})\s*(?:{GIVEN_TO}\s*)*$")
-_BUT_BEHIND = deferred(rf"(?i)\s*号?(?:{either('figures', 'one', 'but_who')})\s*(?:{GIVEN_TO}\s*)*{ANY_NOUN}")
 _LEAVING = Phrases(either("figures", "users", "leaving"))
 _GETS = deferred(
     rf"(?i)(?:[\s,:=]|\b(?:is|ist|est|es)\b|{either('figures', 'users', 'takes')}|"
@@ -62,7 +59,6 @@ _KEPT = Beside(
     deferred(rf"(?i)\s*号?\s*(?:{either('figures', 'users', 'stays')})"),
 )
 _OUT_ALONE = deferred(rf"(?i)\s*号?[\s,:\uff0c]*(?:{either('figures', 'users', 'out_alone')})\s*")
-_OUT_AHEAD = deferred(rf"(?i)(?:{either('figures', 'users', 'leaving')})+\s*(?:{GIVEN_TO}\s*)*$")
 _SPARED = deferred(rf"(?i)(?:{either('figures', 'users', 'spares')})\s*(?:{GIVEN_TO}\s*)*$")
 _AND = deferred(rf"(?i)\b(?:{AND}|but|pero|mais)\b")
 _SILENT = ("kept", "stale")
@@ -121,20 +117,18 @@ class Allotments:
     def _whose_multiples(self) -> Iterator[tuple[Mention, Multiple]]:
         """Whoever gets so many times what another user gets stands ahead."""
         for multiple in self._reading.multiples:
-            named = [each for each in self._found if each.role == "named" and each.end <= multiple.start]
-            between = self._plain[named[-1].end : multiple.said.start] if named else "?"
+            ahead = [each for each in self._found if each.end <= multiple.start]
+            between = self._plain[ahead[-1].end : multiple.said.start] if ahead else "?"
             bounded = multiple.said.comparator is not None and _MAY.fullmatch(between)
             if bounded or _GETS.fullmatch(between):  # not "user 3 pays twice as much as user 2", "user 3 never …"
-                yield named[-1], multiple
+                yield ahead[-1], multiple
 
     def _assign(self, mention: Mention) -> str:
         """Note what somebody is there for, which is given back."""
         role, meant = self._likeliest(mention), self._target(mention)
         if self._too(mention):  # "le 6 non plus"
-            before = [each for each in self._found if each.role == "named" and each.end <= mention.start]
-            alone = "given" if len(mention.users) == 1 else role  # "without users 3 and 4, too"
-            role = self._roles.get(before[-1], "given") if before else alone
-            self._lifted[mention] = self._lifted.get(before[-1], frozenset()) if before else frozenset()
+            before = [each for each in self._found if each.end <= mention.start]
+            role = self._roles.get(before[-1], "given") if before else "given"
         if role == "given" or not meant.users:
             return role
         self._roles[mention] = role
@@ -158,7 +152,7 @@ class Allotments:
         before = [each for each, its in self._roles.items() if its == "leave_out" and each.end <= mention.start]
         for start, end in taking_back(self._plain) if before else ():
             beside = self._plain[end : mention.start], self._plain[mention.end : clause_end(self._plain, mention.end)]
-            instead = len(before[-1].users) == len(mention.users) and not any(map(_ADDS.search, beside))
+            instead = not any(map(_ADDS.search, beside))
             if instead and before[-1].end <= start and end <= mention.start:
                 self._reading.masked.append((start, end))
                 for user in before[-1].users:
@@ -213,7 +207,7 @@ class Allotments:
                 first = self._given[name].setdefault(user, own)
                 if first.value != value:
                     self._conflicts.append(Doubt(key="conflict", names={"one": first.text, "other": own.text}))
-            self._used |= {mention, *(each for each in self._found if each.start <= multiple.whose < each.end)}
+            self._used.add(mention)
         for multiple in self._reading.multiples:
             if multiple not in known:
                 self._reading.doubt("calculated", text=self._text[multiple.start : multiple.end])
@@ -229,13 +223,10 @@ class Allotments:
             own = any(user in given for given in self._given.values() for user in whose)
             if said is None or own or mention in self._used:
                 continue
-            rated = any(user in self._given[name] for name in RATES for user in ahead)
-            for name in RATES if rated else FIGURES_OF_USERS:
-                given = self._given[name]
+            for given in self._given.values():
                 figures = {given[user].value if user in given else None for user in ahead}
                 if len(figures) == 1 and None not in figures:
                     given.update(dict.fromkeys(whose, given[ahead[0]]))
-                    self._of_others |= {name} if mention.role == "others" else set()
                     self._used.add(mention)
                     self._roles[mention] = "given"
             self.spans.append(said.span())
@@ -246,7 +237,7 @@ class Allotments:
         if said is None:
             return None
         ends = [number.end for number in numbers(plain)] + [figure.phrase_end for figure in self._judged.figures]
-        ends += [each.end for each in self._found if each is not mention]
+        ends += [each.end for each in self._found]
         last = max((end for end in ends if end <= mention.start), default=0)
         return said if _ONLY_JOINS.fullmatch(plain, last, mention.start) else None
 
@@ -256,17 +247,12 @@ class Allotments:
         free = [user for user in self._reading.named if user not in caps]
         others = [user for user in self._judged.users_of_the_cell if user not in (*free, *caps)]
         if "max_rate_bps" in self._of_others and EVERYBODY in caps and free and others:
-            own = {user: given for user, given in caps.items() if user != EVERYBODY}
-            self._given["max_rate_bps"] = dict.fromkeys(others, caps[EVERYBODY]) | own
+            caps.update(dict.fromkeys(others, caps.pop(EVERYBODY)))
 
     def _likeliest(self, mention: Mention) -> str:
         """What somebody is there for; without certainty it is unclear."""
         if mention in self._multiplied:
             return "given"
-        of_all = any(each.role == "everybody" and each.end <= mention.start for each in self._found)
-        denied = not of_all and _NOT_AHEAD.search(self._plain, 0, mention.start)
-        if denied and _BUT_BEHIND.match(self._plain, mention.end):  # "not user 3 but user 2"
-            return "stale"
         chances, said = self._judged.user(mention), self._judged.said_of(mention)
         lifted, clause = self._goes_without(mention), self._plain[slice(*self._clause_of(mention))]
         if lifted is None and self._is_out_of_all(mention) and (lifted_in(clause) or _UNLIMITED.search(clause)):
@@ -277,8 +263,8 @@ class Allotments:
             self._lifted[mention] = lifted or frozenset()
             return "exempt"  # whatever rate stands beside it is that of all others
         role = self._likely[mention] = max(chances, key=lambda each: chances[each])
-        if role == "users" and self._others_have_a_figure(mention):  # who are served then, too
-            return "exempt" if WITHOUT.search(self._plain[slice(*self._clause_of(mention))]) else "unclear"
+        if role == "users" and self._others_have_a_figure(mention):
+            return "unclear"  # who are served then, too
         if role == "users" and self._is_out_of_others(mention):
             return "leave_out"
         if role in ("leave_out", "unclear", "kept") and self._stays(mention):
@@ -290,7 +276,7 @@ class Allotments:
             return role
         if _OUT_ALONE.fullmatch(self._plain, mention.end, self._own_words(mention)[1]):
             return "leave_out"
-        if mention.role != "named" or chances["given"] >= _SURE_OF_NO_ROLE:
+        if mention.role != "named":
             return "given"
         return "exempt" if rated and self._is_out_of_all(mention) else "unclear"
 
@@ -306,12 +292,8 @@ class Allotments:
         if ahead is None and behind is None:
             return False
         last = mention.end if behind is None else behind.end()
-        of_the_next = _OUT_AHEAD.search(self._plain, last, end)  # "keep user 5 drop user 6"
-        if of_the_next and any(each.start == end for each in self._found):
-            end = of_the_next.start()
         and_ = _AND.search(self._plain, last, end)  # "keep user 5 and drop user 6"
-        out = _LEAVING.search(self._plain, last, and_.start() if and_ else end)
-        return out is None and not self._has_figures(start, end)
+        return _LEAVING.search(self._plain, last, and_.start() if and_ else end) is None
 
     def _is_out_of_all(self, mention: Mention) -> bool:
         """Whether somebody is excepted from everybody, in one clause."""
@@ -339,7 +321,7 @@ class Allotments:
                 return None
         lifted = frozenset(lifted_in(self._plain[start:end]))
         if lifted:
-            return lifted if lifted <= {*RATES, "all", "ceilings"} else None
+            return lifted
         same = (each for each in self._found if {*each.users} == {*mention.users})
         excepted = any(EXCEPTED.search(self._plain, 0, each.start) for each in same)
         return frozenset() if excepted and _UNLIMITED.search(self._plain[mention.end : end]) else None
@@ -357,15 +339,14 @@ class Allotments:
         return start, min([aside.end() if aside else last, *ends])
 
     def _others_have_a_figure(self, mention: Mention) -> bool:
-        """Whether the others, named behind somebody, have a figure in their clause: "除了用户4和5，其他人至少700k".
+        """Whether the others have a figure in their clause: "serve only users 1 and 2, the others at 1 Mbit/s".
 
         They are no others than of those who are served where one of these is named again: "only 1, 2 and 3; 3 gets
         2 Mbit/s, the other two 1 Mbit/s".
         """
-        if any({*each.users} < {*mention.users} for each in self._found if each.users):
-            return False
-        others = (each for each in self._found if each.role == "others" and each.start >= mention.end)
-        return any(self._has_figures(*self._clause_of(each)) for each in others)
+        again = any({*each.users} < {*mention.users} for each in self._found if each.users)
+        others = (each for each in self._found if each.role == "others")
+        return not again and any(self._has_figures(*self._clause_of(each)) for each in others)
 
     def _clause_of(self, mention: Mention) -> Span:
         return clause_start(self._plain, mention.start), clause_end(self._plain, mention.end)
@@ -376,7 +357,7 @@ class Allotments:
     def _one_for_each(self) -> Iterator[tuple[int, Target]]:
         """The figures of lists as long as a list of users, one for each: "users 1 and 4 get 2 and 3 Mbit/s"."""
         for starts in self._judged.lists:
-            able = [m for m in self._found if len(m.users) == len(starts) and self._roles.get(m) != "leave_out"]
+            able = [each for each in self._found if len(each.users) == len(starts)]
             chances = [self._judged.owners(start, able) for start in starts]
             best = max(able, key=lambda mention: sum(each[mention] for each in chances), default=None)
             if best is not None:
@@ -390,11 +371,7 @@ class Allotments:
         candidates = [each for each in self._found if self._roles.get(each) not in ("leave_out", "exempt")]
         chances = self._judged.owners(start, candidates)
         target = self._target(max(chances, key=lambda mention: chances[mention]))
-        own, served, same = set(target.keys), {EVERYBODY, *self._lists["users"]}, 0.0
-        for mention, chance in chances.items():
-            keys = set(self._target(mention).keys)
-            if keys == own or keys | own == served:  # everybody are those who are served alone
-                same += chance
+        same = sum(chance for mention, chance in chances.items() if set(self._target(mention).keys) == set(target.keys))
         return replace(target, sure=same > _SURE_OF_AN_OWNER)
 
     def _target(self, mention: Mention | None) -> Target:
@@ -465,7 +442,7 @@ class Allotments:
         reading, served = self._reading, self._lists["users"].keys()
         for name, given in self._given.items():
             figures = {user: each.value for user, each in given.items()}
-            if name == "weights" and (figures.get(EVERYBODY) == 1 or set(figures) == {EVERYBODY}):
+            if name == "weights" and figures.get(EVERYBODY) == 1:
                 del figures[EVERYBODY]  # "all others 1" is what they count anyway
             same_for_all = name != "weights" and len(set(figures.values())) == 1 and figures.keys() == served
             if same_for_all or set(figures) == {EVERYBODY}:

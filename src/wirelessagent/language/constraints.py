@@ -9,29 +9,27 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 from wirelessagent.language.allotments import Allotments, Target
 from wirelessagent.language.as_meant import CHANGES, LEADS, turns
-from wirelessagent.language.comparators import WITH, nouns_of, speaks_of
+from wirelessagent.language.comparators import WITH, nouns_of
 from wirelessagent.language.intent import RATES
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.mentions import ARTICLES, GIVEN_TO
 from wirelessagent.language.moods import named_in
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.stated import (
-    CARRIERS,
     Reading,
     doubt_parts,
     take_blocks,
     take_counts,
     take_multiples,
 )
-from wirelessagent.language.text import AND, Beside, Phrases, Span, blanked, clause_end, clause_start, overlaps
+from wirelessagent.language.text import AND, Beside, Phrases, Span, blanked, clause_start, overlaps
 from wirelessagent.language.word_tables import any_word, deferred, either
 
 _STEP = Phrases(either("figures", "one", "watt_more"), marks="watt vatio 一瓦")
-_SET = deferred(rf"(?i)(?P<verb>{CHANGES})(?:\s+(?!{AND})\w+){{0,3}}?\s*$")
+_SET = deferred(rf"(?i)(?:{CHANGES})(?:\s+(?!{AND})\w+){{0,3}}?\s*$")
 _AT = rf"(?:{LEADS}|(?<![A-Za-zÀ-ÿ]){any_word('figures', 'becoming', 'at')}(?![A-Za-zÀ-ÿ])|[:=])"
 _SET_TO = deferred(
     rf"(?i)(?:[\s@]|{CHANGES}|{GIVEN_TO}|(?:{ARTICLES})|\b[ld]'|\b{any_word('figures', 'shares_of', 'of')}\b|{_AT})*"
@@ -41,14 +39,12 @@ _MINIMUM = deferred(rf"(?i){either('figures', 'becoming', 'minimum')}")
 _NOUNS = "|".join(either("figures", "bounds", name) for name in ("between", "rate", "power"))
 _FOR = deferred(r"(?i)\s*(?:\b(?:for|to|für|para|pour|à)\b|给)\s*(?:the\s+|l'\s?|el\s+|los\s+|les\s+)?")
 _TAKES = either("figures", "users", "takes")
-_GETS = deferred(rf"(?i)\s*(?:{_TAKES})\s*(?:(?:only|nur|solo|seulement)\s+)?")
 _ONE = either("figures", "users", "singly")
 _SINGLY = Beside(
     deferred(rf"(?i)(?:{_ONE})\s*(?:(?:{_TAKES})\s*)?$"),
     deferred(rf"(?i)\s*(?:(?:for|für|para|pour)\s+)?(?:{_ONE})"),
 )
 _NEITHER = deferred(rf"(?i)(?:{either('figures', 'users', 'neither')})\s*$")
-_GIVEN = 0.5
 _LIMITS = (
     *RATES, "both", "max_power_w", "circuit_power_w", "subcarrier_max_power_w", "outage",
     "reliability", "share",
@@ -58,7 +54,6 @@ _ASKED = {
     "per_user": "power_per_user",
 }  # fmt: skip
 _UNSURE = {"rate": "status", "power": "whose_power", "ratio": "share"}
-_NEAR = 60
 _HUGE_POWER_W = 1e5  # no cell radiates this much: a megawatt is a misspelt milliwatt
 _TINY_POWER_W = 1e-8  # nor so little: that is noise
 _MOST_OUTAGE, _SURE_OF_A_PROMISE = 0.3, 0.9
@@ -77,7 +72,6 @@ def _said_of(name: str) -> Beside:
     )
 
 
-_EVENLY, _WEIGHS = Phrases(either("figures", "bounds", "evenly")), Phrases(either("figures", "users", "weights"))
 _OF_ANOTHER_KIND, _OF_SEVERAL, _OF_ANOTHER_SHARE = map(_said_of, ("of_another_kind", "of_several", "of_another_share"))
 
 
@@ -156,8 +150,6 @@ class _Reader:
             return "change"
         reading, chances = self._reading, self._judged.figure(index)
         role = self._judged.role(index)
-        if role in ("total", *RATES) and self._take_evenly(index, figure, role):
-            return ""
         following = [other for other in self._judged.figures[index + 1 : index + 2] if other.kind == figure.kind]
         limits = sum(chances.get(name, 0.0) for name in _LIMITS)
         if role in _ASKED:
@@ -172,12 +164,10 @@ class _Reader:
         if role not in _LIMITS:
             if 1 - limits < _SURE:
                 return _UNSURE[figure.kind]
-            alike = [other for other in self._judged.figures if other.kind == figure.kind]
-            before = max((other.end for other in alike if other.end <= figure.start), default=0)
-            if role == "refused" and (len(alike) == 1 or (before and self._reading.takes_back(before, figure.start))):
+            if role == "refused" and len(self._judged.figures) == 1:
                 return "refused"
             if role == "stale":  # the words by which the next figure takes its place wish and deny nothing
-                reading.masked += [(figure.end, other.start) for other in following if other.start - figure.end < _NEAR]
+                reading.masked += [(figure.end, other.start) for other in following]
             if role == "missing":
                 reading.missing = figure.value
                 reading.not_used.append(figure.text)
@@ -200,16 +190,14 @@ class _Reader:
         elif role == "share":
             self._reading.take_share(figure, self._max_power_w)
         elif figure.kind == "ratio":
-            clause = self._reading.plain[clause_start(self._reading.plain, figure.start) : figure.start]
-            of_carriers = figure.comparator is not None and CARRIERS.search(clause)
-            if of_carriers or self._with(_OF_ANOTHER_SHARE, figure):
+            if self._with(_OF_ANOTHER_SHARE, figure):
                 return "share"
             outage = figure.value if role == "outage" else round(1 - figure.value, 15)
             if outage > _MOST_OUTAGE and self._judged.figure(index)[role] < _SURE_OF_A_PROMISE:
                 return "share"
             self._reading.take("outage_probability", outage, figure)
         elif figure.kind == "power":
-            if role != "subcarrier_max_power_w" and self._is_of_a_user(figure):
+            if role != "subcarrier_max_power_w" and (self._with(_SINGLY, figure) or self._is_for_a_user(figure)):
                 return "power_per_user"
             if figure.value > _HUGE_POWER_W:
                 return "huge"
@@ -218,8 +206,7 @@ class _Reader:
             self._reading.take(role, figure.value, figure)
         else:
             target = self._allotments.target_of(figure.start)
-            alone = target.sure and len(target.users) == 1  # "sum rate with 1 Mbit/s for user 7"
-            if not alone and self._with(_OF_SEVERAL, figure):
+            if len(target.users) != 1 and self._with(_OF_SEVERAL, figure):  # "sum rate with 1 Mbit/s for user 7"
                 return "total_rate"
             denied = target.mention and _NEITHER.search(self._reading.plain, 0, target.mention.start)
             if not target.sure or (denied and figure.comparator is None):  # "neither 3 nor 4 gets 1 Mbit/s"
@@ -239,37 +226,12 @@ class _Reader:
         for first, last in nouns:
             if start <= first and last <= figure.start and _SET_TO.fullmatch(plain, last, figure.start):
                 verb = _SET.search(plain, start, first)
-                own = verb is not None and not speaks_of(plain[verb.end("verb") : first])
-                yield verb.start() if verb and own else first, figure.end
+                yield verb.start() if verb else first, figure.end
 
     def _give(self, name: str, target: Target, figure: Quantity) -> None:
         earlier = self._allotments.give(name, target, figure)
         if earlier is not None:
             self._reading.doubt("conflict", one=earlier, other=figure.text)
-
-    def _take_evenly(self, index: int, figure: Quantity, role: str) -> bool:
-        """Take a rate that several users share evenly as so much for each: "6 Mbit/s in total, split evenly …".
-
-        What is shared is no power, nothing of the others, and no rate that each of them has.
-        """
-        figures, plain = self._judged.figures, self._reading.plain
-        end = figures[index + 1].start if index + 1 < len(figures) else len(plain)
-        shared = _EVENLY.search(plain, figures[index - 1].end if index else 0, end)
-        target = self._allotments.target_of(figure.start)
-        if shared is None or not target.sure or len(target.users) < 2:
-            return False
-        start = min(clause_start(plain, shared.start()), clause_start(plain, figure.start))
-        span = start, max(clause_end(plain, shared.end()), clause_end(plain, figure.end))
-        among = {each.role for each in self._judged.mentions if span[0] <= each.start < span[1]}
-        said = plain[slice(*span)]
-        of_something_else = "power" in speaks_of(said) or bool(CARRIERS.search(said) or _WEIGHS.search(said))
-        of_something_else |= any(span[0] <= each.start < span[1] for each in figures if each is not figure)
-        if of_something_else or among & {"others", "everybody"}:
-            return False
-        self._reading.masked.append(shared.span())
-        each = replace(figure, value=figure.value / len(target.users))
-        self._give("max_rate_bps" if role == "max_rate_bps" else "min_rate_bps", target, each)
-        return True
 
     def _with(self, said: Beside, figure: Quantity) -> str:
         """A figure with such words ahead or behind, at most its users between: "1 Mbit/s on average"; "" for none."""
@@ -282,24 +244,16 @@ class _Reader:
         spans = [*((first, end) for first in ahead), *((start, last) for last in behind)]
         return self._reading.text[slice(*spans[0])].strip() if spans else ""
 
-    def _is_of_a_user(self, figure: Quantity) -> bool:
-        """Whether a power is said to be somebody's who has no rate: "2 W for user 3", "no user above 2 W"."""
-        plain, start, end = self._reading.plain, figure.phrase_start, figure.phrase_end
-        if _SINGLY.is_at(plain, start, end, clause_start(plain, start)):
-            return True
-        users = (user for user in self._judged.mentions if user.role == "named")
-        beside = (
-            user for user in users
-            if _FOR.fullmatch(plain, end, user.start) or _GETS.fullmatch(plain, user.end, start)
-        )  # fmt: skip
-        return any(self._judged.user(user).get("given", 0.0) < _GIVEN for user in beside)
+    def _is_for_a_user(self, figure: Quantity) -> bool:
+        """Whether a power is said to be somebody's: "2 W for user 3"."""
+        return any(_FOR.fullmatch(self._reading.plain, figure.phrase_end, each.start) for each in self._judged.mentions)
 
     def take_users(self) -> None:
         """What users are given, and those who are counted, some of them, or named for nothing: each is a doubt."""
         reading, allotted = self._reading, self._allotments
         for start, end in allotted.take_users():
             reading.doubt("named_user", text=reading.text[start:end])
-        take_counts(reading, self._judged.numbers.recounted, allotted.spans, len(self._judged.users_of_the_cell))
+        take_counts(reading, allotted.spans, len(self._judged.users_of_the_cell))
         doubt_parts(reading, allotted.spans)
         if _STEP.search(reading.plain) is not None:
             reading.steps.setdefault("power_w", 1.0)

@@ -13,16 +13,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 from wirelessagent.language.as_meant import CHANGES, LEADS, RAISES
-from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.figure_roles import answers, likely, shipped_roles
 from wirelessagent.language.intent import RATES
 from wirelessagent.language.mentions import ARTICLES, EXCEPTED, GIVEN_TO, JOINT_WORDS, NOBODY, WHO, Mention
 from wirelessagent.language.number_roles import ITEMS, Numbers, everybody_named, jointly, moved, runs, series, shares
-from wirelessagent.language.numerals import Number, factors
+from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.request import numbered
 from wirelessagent.language.stated import CARRIERS, EACH_CARRIER, POWER_NOUNS, is_spared, shares_power
-from wirelessagent.language.text import AND, AND_ALONE, Beside, Phrases, Span, clause_start, is_chinese
+from wirelessagent.language.text import Beside, Phrases, Span, clause_start, is_chinese
 from wirelessagent.language.word_tables import any_word, deferred, either, words_of
 
 # The share of those who have a rate or a weight, among all users named and among those of each role.
@@ -40,9 +39,6 @@ _HEADS = {
 """What may stand ahead of the first of a series, "floors in Mbit/s: u1 0.5, u2 0.75", or behind its last, "as caps"."""
 _HEAD = any_word("figures", "bounds", "floors_of", "caps_of")
 _UNBOUND = deferred(rf"(?i)\s*(?:$|[^\w\s]|{GIVEN_TO}|{JOINT_WORDS}|(?:{_AS})\s*{_HEAD}(?!\w))")
-_GOES_ON = deferred(rf"(?i)\s*[,)\uff0c]\s*(?:{either('figures', 'users', 'takes')})")
-_AGAIN = deferred(rf"(?i)(?:{either('figures', 'one', 'says_again')})\W*$")
-_ENDED = deferred(rf"(?i)\s*(?:$|[,.;:!?)\uff0c\uff1b。、](?![0-9])|(?:{AND})\b|然后)")
 _CEILINGS = ("max_power_w", "subcarrier_max_power_w")
 BOUNDED = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
 _DENIED = Phrases(either("moods", "negation", "clause"))
@@ -50,7 +46,6 @@ _CARRIER_AHEAD = deferred(
     rf"(?i){EACH_CARRIER}\w*\s*(?:(?:{either('figures', 'users', 'takes')}|{POWER_NOUNS}|功率|上限|[:=])\s*)*$"
 )
 _CARRIER_BEHIND = deferred(rf"(?i)\s*(?:(?:on|in|for|auf|bei|en|sur|dans|pour|para)\s+)?{EACH_CARRIER}")
-_GIVES = deferred(rf"(?i){either('figures', 'bounds', 'gives')}")
 _RAISED = deferred(rf"(?i)(?:{RAISES})\W.*(?:{LEADS}|\b{any_word('figures', 'users', 'as_far_as')})\s*$")
 _CAPS = deferred(
     rf"(?i)\b(?:{'|'.join(words_of('figures', 'bounds', 'caps'))})|m[aá]x|上限|限速|封顶|最高|"
@@ -60,7 +55,7 @@ _OF_CIRCUITS = either("figures", "bounds", "circuit")
 _CIRCUIT = deferred(  # "the static power to 3 W", but not, behind a figure, "2 W static power, 10 W …"
     rf"(?i)(?:^|\w.*|[,;.、，；。])\s*(?:{_OF_CIRCUITS})(?:[\s:=]|{CHANGES}|{LEADS}|为|{ARTICLES})*$"
 )
-_SURE, _PERHAPS = 0.8, 0.2
+_SURE = 0.8
 _ONCE, _MOST_POWERS, _HARDLY = ("max_power_w", "circuit_power_w", "subcarrier_max_power_w"), 4, 0.01
 
 _Means: TypeAlias = dict[int, Mapping[str, float]]
@@ -108,21 +103,16 @@ class Judged:
         if not others and WHO.fullmatch(self._look.plain, named[-1].end, start):
             return {named[-1]: 1.0}  # "except user 5, who needs 1 Mbit/s"
         last = between[-1] if between else None
-        if (
-            last
-            and NOBODY.search(self._look.plain[last.start : last.end])
-            and not any(last.end <= each.start < start for each in self.figures)
-        ):
+        if last and NOBODY.search(self._look.plain[last.start : last.end]):
             return {last: 1.0}  # "the others at least 1 Mbit/s, and nobody goes above 6 Mbit/s"
-        everyone = [*(each for each in self.mentions if not self._is_aside(each, start)), None]
+        everyone = [*(each for each in self.mentions if not self._is_aside(each)), None]
         seen = self.view.owners(start, everyone)
         return likely([shipped_roles().scores("link", features)[0] for features in seen], everyone)
 
-    def _is_aside(self, mention: Mention, start: int) -> bool:
-        """Whether what begins here is not said of somebody excepted: "all but user 5, who needs 1 Mbit/s, get …"."""
-        plain, who = self._look.plain, WHO.match(self._look.plain, mention.end)
-        passed = who is not None and who.end() <= start and _GOES_ON.match(plain, who.end()) is not None
-        return passed and EXCEPTED.search(plain, 0, mention.start) is not None
+    def _is_aside(self, mention: Mention) -> bool:
+        """Whether more is said of somebody excepted than that: "all but user 5, who needs 1 Mbit/s, get …"."""
+        who = WHO.match(self._look.plain, mention.end)
+        return who is not None and EXCEPTED.search(self._look.plain, 0, mention.start) is not None
 
     def figure(self, index: int) -> Mapping[str, float]:
         """How likely a power, a rate or a ratio has each role."""
@@ -136,8 +126,7 @@ class Judged:
     def _meanings(self) -> _Means:
         """How likely each figure has each role; what those have that stand for the same kind of thing is found then."""
         means: _Means = {}
-        for find in (self._of_each, self._of_lists, self._of_multiples, self._of_series, self._of_those_excepted,
-                     self._of_powers):  # fmt: skip
+        for find in (self._of_each, self._of_series, self._of_those_excepted, self._of_powers):
             for starts, chances in find(means):
                 means |= dict.fromkeys(starts, chances)
         return means
@@ -150,27 +139,13 @@ class Judged:
             chances = answers(figure.kind, self.view.figure(place))
             yield [figure.start], _as_bounded(self._look.plain, figure, chances, (before, next_), carriers=carriers)
 
-    def _of_lists(self, means: _Means) -> Iterator[_Same]:
-        for starts in self.lists:
-            each = [means[start] for start in starts if start in means]
-            if each:
-                yield starts, jointly(each)
-
-    def _of_multiples(self, means: _Means) -> Iterator[_Same]:
-        """Of a row, what doubles a figure ahead: "bride 6 à 1 Mbit/s, 1 au double"."""
-        times = {factor.start for factor in factors(self._look.plain)}
-        for first, *behind in self._series:
-            yield [each.start for each in behind if each.start in times and not each.comparator], means[first.start]
-
     def _of_series(self, means: _Means) -> Iterator[_Same]:
         """One bound for all of a row: "cap 1 at 1.5, 4 at 2 and 6 at 2.5 Mbit/s"."""
         plain = self._look.plain
         for row in self._series:
             first, *behind = row
-            new = next((n for n, pair in enumerate(itertools.pairwise(row)) if self._is_set_anew(*pair)), None)
-            alone = [first, *itertools.takewhile(self._has_no_bound, behind[:new])]
-            starts = [each.start for each in alone]
-            if first.comparator is None and alone == row:
+            starts = [first.start, *(each.start for each in itertools.takewhile(self._has_no_bound, behind))]
+            if first.comparator is None:
                 yield starts, jointly([means[start] for start in starts])
             bound = BOUNDED.get(first.comparator or "") if first.phrase_start < first.start else None
             if first.comparator is None:
@@ -184,37 +159,15 @@ class Judged:
         """What bounds all the others: "at most 2 Mbit/s, but for user 2, who is at 1 Mbit/s"."""
         for last, figure in itertools.pairwise(each for each in self._look.figures if each.kind == "rate"):
             open_ = figure.comparator is None and max(means[figure.start].values()) < _SURE
-            if open_ and self._is_an_exception(last.end, figure.start):
+            ahead = [each.start for each in self.mentions if each.end <= figure.start]
+            if open_ and any(EXCEPTED.search(self._look.plain, last.end, start) for start in ahead):
                 yield [figure.start], jointly([means[last.start], means[figure.start]])
 
     def _of_powers(self, means: _Means) -> Iterator[_Same]:
-        """A cell has one limit of each kind, which may be said twice."""
-        again = dict(self._said_again(means))
-        powers = [each.start for each in self._look.figures if each.kind == "power" and each.start not in again]
-        powers = powers[:_MOST_POWERS]
+        """A cell has one limit of each kind."""
+        powers = [each.start for each in self._look.figures if each.kind == "power"][:_MOST_POWERS]
         for start, chances in zip(powers, _each_once([means[start] for start in powers]), strict=True):
             yield [start], chances
-        for start, first in again.items():
-            yield [start], means[first]
-
-    def _is_an_exception(self, start: int, end: int) -> bool:
-        """Whether a figure at the end is of somebody excepted: "at most 2 Mbit/s, but for user 2, who is at 1"."""
-        between = [each for each in self.mentions if each.role == "named" and start <= each.start and each.end <= end]
-        return bool(between) and EXCEPTED.search(self._look.plain, 0, between[-1].start) is not None
-
-    def _said_again(self, means: Mapping[int, Mapping[str, float]]) -> Iterator[tuple[int, int]]:
-        """Where a power is only said once more, and where at first: "five watts I think, yes, five watts"."""
-        plain, powers = self._look.plain, [figure for figure in self._look.figures if figure.kind == "power"]
-        for one, other in itertools.pairwise(powers):
-            words, its = plain[one.phrase_end : other.phrase_start], means[one.start]
-            may_be = means[other.start][max(its, key=lambda role: its[role])] > _PERHAPS
-            again = _AGAIN.search(words) is not None and not speaks_of(words)  # not "yes, transmit 5 W"
-            if one.value == other.value and again and may_be and _ENDED.match(plain, other.phrase_end):
-                yield other.start, one.start
-
-    def _is_set_anew(self, one: Quantity, other: Quantity) -> bool:
-        """Whether a verb between two figures begins another order: "cap user 1 at 1 Mbit/s give user 3 3 Mbit/s"."""
-        return _GIVES.search(self._look.plain, one.end, other.start) is not None
 
     def _has_no_bound(self, figure: Quantity) -> bool:
         """Whether a figure leaves open how it bounds: "user 2 1 Mbit/s guaranteed" does not."""
@@ -233,8 +186,6 @@ class Judged:
     def user(self, mention: Mention) -> Mapping[str, float]:
         """The same by the words, and by how likely some rate or weight is theirs."""
         by_words = self.said_of(mention)
-        if self._look.unread:  # a figure that may be theirs
-            return by_words
         same = [other for other in self.mentions if other == mention or not set(other.users).isdisjoint(mention.users)]
         theirs = ((sum(chances.get(other, 0.0) for other in same), sure) for chances, sure in self._owned)
         owning = 1 - math.prod(1 - sure * share for share, sure in theirs)
@@ -276,8 +227,7 @@ def _as_bounded(
     bound = BOUNDED.get(figure.comparator or "") if figure.kind == "rate" else None
     ahead = plain[clause_start(plain, figure.phrase_start, beside[0]) : figure.phrase_start]
     raised = _RAISED.search(ahead) if figure.kind == "rate" and figure.comparator is None else None
-    joints = [each.end() for each in AND_ALONE.finditer(ahead, 0, raised.start() + 1)] if raised else []
-    if raised and _CAPS.search(ahead, max(joints, default=0)) is None:  # not "drop the cap and raise user 3 to …"
+    if raised and _CAPS.search(ahead, raised.start()) is None:  # not "raise the cap of user 3 to …"
         bound = "min_rate_bps"
     return chances if bound is None else moved(chances, (*RATES, "both"), bound)
 
@@ -285,17 +235,15 @@ def _as_bounded(
 def _is_of_a_carrier(plain: str, figure: Quantity, beside: Span) -> bool:
     """Whether a power is said to be one of each subcarrier, behind it or ahead, between the figures ``beside``.
 
-    A rate of each subcarrier is none, nor what is denied: "not 10 W per subcarrier".
+    What is denied is none: "not 10 W per subcarrier".
     """
     before, next_ = beside
     clause = plain[max(before, clause_start(plain, figure.phrase_start)) : figure.phrase_start]
-    ahead = _CARRIER_AHEAD.search(clause)
-    of_each = ahead is not None and "rate" not in speaks_of(clause[: ahead.start()])
-    taken = _CARRIER_BEHIND.match(plain, before) if before else None  # "0.1 W per subcarrier and 10 W in total"
+    taken = before and _CARRIER_BEHIND.match(plain, before)  # "0.1 W per subcarrier and 10 W in total"
+    ahead = None if taken else _CARRIER_AHEAD.search(clause)
     behind = _CARRIER_BEHIND.match(plain, figure.phrase_end)
-    of_the_last = taken is not None and not _lead_on(plain, taken, figure.phrase_start)
     own = behind is not None and not _lead_on(plain, behind, next_)
-    return ((of_each and not of_the_last) or own) and _DENIED.search(clause) is None
+    return (own or ahead is not None) and _DENIED.search(clause) is None
 
 
 def _lead_on(plain: str, words: re.Match[str] | None, start: int) -> bool:

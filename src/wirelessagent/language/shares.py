@@ -40,7 +40,6 @@ _OF_IT_BEHIND = deferred(
     rf"(?!\s+{any_word('figures', 'shares_of', 'likened')}(?!\w)))(?!\w)"
 )
 _OF_IT_AHEAD = deferred(rf"{_IT_AHEAD}\s*$")
-_AGAIN = deferred(rf"(?i)[^,;.]*\b(?:{any_word('figures', 'shares_of', 'again')})\b")
 _THAN = either("figures", "shares_of", "than")
 OF_SOMEBODY = Beside(deferred(rf"(?i){SOMEBODY}\s*的\w{{0,4}}$"), deferred(rf"(?i)\s*(?:{_THAN})[' ]?{SOMEBODY}"))
 """What makes a multiple one of another user's rate: "as much as user 1", 用户1的."""
@@ -66,10 +65,8 @@ def worked_out(text: str) -> str:
     """
     for start, end, instead in _come_to(normalise(text)):
         article = _ARTICLE.search(text, 0, start)
-        start = article.start() if article and instead.endswith(("W", "bps")) else start
-        room = end - start - text[start - 1 : start].isdigit()
-        instead = instead if len(instead) <= room else instead.removesuffix("bps")  # "600k", as Chinese writes it
-        if len(instead) <= room:
+        start = article.start() if article and instead else start
+        if len(instead) <= end - start - text[start - 1 : start].isdigit():
             text = written_over(text, start, end, instead)
     return text
 
@@ -84,14 +81,11 @@ def _come_to(plain: str) -> Iterator[tuple[int, int, str]]:
     for share in sorted(_shares(plain), key=lambda each: each.start):
         ahead = [figure for figure in figures if figure.end <= share.start]
         behind = [figure for figure in figures if figure.start >= share.end]
-        base = ahead[-1] if ahead and _AGAIN.match(plain, share.end) is None else None
         if behind and _is_part(share) and _JOINED.fullmatch(plain, share.end, behind[0].start):  # "80 % of 25 W"
             whole = _ALL_THERE_IS.match(plain, behind[0].end)
             yield share.start, whole.end() if whole else behind[0].end, _written(behind[0], share.value)
-        elif base is not None and share.value > 0:
-            again = bool(behind) and math.isclose(behind[0].value, base.value * share.value, rel_tol=1e-3)
-            for start, end, worth in _of_one_ahead(plain, share, base):  # "twice that, namely 1.5 Mbit/s"
-                yield start, end, "" if again else worth
+        elif ahead:
+            yield from _of_one_ahead(plain, share, ahead[-1])
 
 
 def _is_part(share: _Figure) -> bool:
@@ -112,7 +106,7 @@ def _of_one_ahead(plain: str, share: _Figure, base: _Figure) -> Iterator[tuple[i
         yield base.start, share.end, worth
     elif it is not None:
         yield share.start, it.end(), worth
-    elif base.kind == "power" and share.value < 1 and _is_used(plain, share):  # "it can do 40 W, use a quarter at most"
+    elif base.kind == "power" and _is_used(plain, share):  # "it can do 40 W, use a quarter at most"
         yield base.start, base.end, ""
         yield share.start, share.end, worth
 

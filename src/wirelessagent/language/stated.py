@@ -52,7 +52,6 @@ _VAGUE = deferred(
     r"(?<=a )number)\s+(?:of\s+)?"
 )
 _SETS_A_LIMIT = deferred(rf"(?i)(?:{either('figures', 'bounds', 'names')}|[=:<>≤≥])\s*$")
-_IS_GIVEN = deferred(r"\s*(?:→|[-=]>|[=:])\s*[0-9.]")  # "floors: 1 → 300k, 2 → 1M"
 _UNIT_OF_ANOTHER_KIND = deferred(
     r"(?i)\s?(?:[kMG](?![^\W\d_])|dB|J|[km]?A|joules?|julios?|amps?|amperes?|decibels?)(?![^\W\d_])|\s*[千兆毫]?(?:焦|安培|分贝)"
 )
@@ -95,12 +94,7 @@ def unread(plain: str, covered: Sequence[Span]) -> Span | None:
 @functools.lru_cache(maxsize=64)
 def idioms(plain: str) -> tuple[Span, ...]:
     """Where numbers are part of a name, a time or a turn of phrase."""
-    return tuple(
-        match.span()
-        for pattern in (_NAMES, _TIMES)
-        for match in pattern.finditer(plain)
-        if not (pattern is _TIMES and "may" in plain[slice(*match.span())])  # no month
-    )
+    return tuple(match.span() for pattern in (_NAMES, _TIMES) for match in pattern.finditer(plain))
 
 
 def loose_numbers(plain: str, covered: Sequence[Span]) -> list[Number]:
@@ -134,7 +128,7 @@ def may_be_a_limit(plain: str, number: Number) -> bool:
         return True  # a clause says nothing else, as limits are said: "max rate, 10 Wh"
     if _UNIT_OF_ANOTHER_KIND.match(plain, number.end) is not None:
         return True
-    return _SETS_A_LIMIT.search(plain, 0, number.start) is not None and _IS_GIVEN.match(plain, number.end) is None
+    return _SETS_A_LIMIT.search(plain, 0, number.start) is not None
 
 
 def _numbers_at(plain: str) -> Iterator[int]:
@@ -193,7 +187,6 @@ EACH_CARRIER = rf"(?:{either('figures', 'shared', 'per')})\s*子?(?:{either('fig
 _PER_CARRIER = Beside(
     deferred(rf"(?i){EACH_CARRIER}[^,;.\uff0c。0-9]{{0,16}}$"), deferred(rf"(?i)\s*(?:\w+\s+)?{EACH_CARRIER}")
 )
-_BUDGETS = deferred(r"(?:功率|预算)的\s*$")
 _IS_SHARED = deferred(rf"(?i)\b(?:{_BUDGET})\b|功率|预算")
 _UNUSED = deferred(
     rf"(?i)\s*(?:(?:{either('figures', 'shared', 'stays')})\s+)?(?:{either('figures', 'shared', 'unused')})"
@@ -204,7 +197,7 @@ def shares_power(plain: str, figure: Quantity) -> bool:
     """Whether a share is said to be one of the power: "90 % of the power budget", not "outage 5 %, power 10 W"."""
     ahead = plain[clause_start(plain, figure.phrase_start) : figure.phrase_start]
     promises = any(name == "outage_probability" for _, name in named_in(ahead))
-    return not promises and (_OF_THE_BUDGET.match(plain, figure.phrase_end) or _BUDGETS.search(ahead)) is not None
+    return not promises and _OF_THE_BUDGET.match(plain, figure.phrase_end) is not None
 
 
 def is_spared(plain: str, figure: Quantity) -> bool:
@@ -245,13 +238,12 @@ OF_WEIGHTS = Phrases(either("figures", "users", "weighs"))
 
 
 class Multiple(NamedTuple):
-    """So many times what another user gets, "half as much as user 1", who stands at ``whose``."""
+    """So many times what another user gets: "half as much as user 1"."""
 
     times: float
     user: str
     start: int
     end: int
-    whose: int
     said: Comparison
 
 
@@ -379,37 +371,29 @@ def take_multiples(reading: Reading) -> None:
     for factor in factors(plain):
         said = OF_SOMEBODY.behind.match(plain, factor.end) or OF_SOMEBODY.ahead.search(plain, 0, factor.start)
         users = listed_users(said["one"]) if said is not None else ()
-        if said is not None and len(users) == 1 and unit_at(plain, said.end("one")) is None:
+        if said is not None and len(users) == 1:
             start, end = min(said.start(), factor.start), max(said.end(), factor.end)
-            after = max((each.phrase_end for each in reading.quantities if each.phrase_end <= start), default=0)
-            bound = comparison(plain, start, end, kind="rate", after=after)
-            whose = said.start("one")
-            reading.multiples.append(Multiple(float(factor.value or 0), users[0], start, end, whose, bound))
+            bound = comparison(plain, start, end, kind="rate", after=0)
+            reading.multiples.append(Multiple(float(factor.value or 0), users[0], start, end, bound))
             reading.spoken_for.append((factor.start, factor.end))
             reading.masked.append((start, end))
 
 
-def take_counts(reading: Reading, recounted: Sequence[Span], allotted: Sequence[Span], of_all: int) -> None:
+def take_counts(reading: Reading, allotted: Sequence[Span], of_all: int) -> None:
     """How many users there are is the channel's affair; to pick some of them without naming them is a doubt.
 
-    ``recounted`` are counts of users who are named, ``allotted`` spans that speak of named users, and so many users
-    are ``of_all``.
+    ``allotted`` are spans that speak of named users, and so many users are ``of_all``.
     """
     taken = [*((figure.start, figure.end) for figure in reading.quantities), *reading.spoken_for, *allotted]
     measured = [(figure.start, figure.end) for figure in reading.quantities if figure.kind not in ("bare", "other")]
     for match in COUNTED_USERS.finditer(reading.plain):
-        described = any(match.start() <= start < match.end() for start, _ in recounted)
-        if described or any(start <= match.start() < end for start, end in taken):
+        if any(start <= match.start() < end for start, end in taken):
             continue
         words = reading.text[slice(*match.span())]
         reading.counted.append(match.span())
-        if any(end == match.start() for _, end in allotted):  # "3、5、6两个用户"
-            reading.doubt("some_users", text=words)
-            continue
         counts = [n for n in numbers(reading.plain) if not overlaps((n.start, n.end), measured)]
-        alone = len(counts) == 1 and match.start() <= counts[0].start < match.end()  # not "3 of 8 users"
-        another = alone and of_all and counts[0].value != of_all
-        if (alone and counts[0].value == of_all) or (not another and _describes_all(reading, *match.span())):
+        alone = len(counts) == 1 and bool(of_all)  # not "3 of 8 users"
+        if counts[0].value == of_all if alone else _describes_all(reading, *match.span()):
             reading.not_used.append(words)
         else:
             reading.doubt("not_understood" if CARRIERS.search(words) else "some_users", text=words)
@@ -432,13 +416,8 @@ def doubt_parts(reading: Reading, allotted: Sequence[Span]) -> None:
 
 
 def _describes_all(reading: Reading, start: int, end: int) -> bool:
-    """Whether a count of users tells how many there are, rather than picking some: "for 3 users" picks.
-
-    Its clause says so, figures being borders, too.
-    """
+    """Whether a count of users tells how many there are, rather than picking some: "for 3 users" picks."""
     plain = reading.plain
-    first = max([0, *(figure.phrase_end for figure in reading.quantities if figure.phrase_end <= start)])
-    last = min([len(plain), *(figure.phrase_start for figure in reading.quantities if figure.phrase_start >= end)])
-    before, after = plain[clause_start(plain, start, first) : start], plain[end : clause_end(plain, end, last)]
+    before, after = plain[clause_start(plain, start) : start], plain[end : clause_end(plain, end)]
     described = _DESCRIBED_BEFORE.search(before) and _DESCRIBED_AFTER.match(after)
     return described is not None or _ALL.search(before) is not None
