@@ -133,8 +133,7 @@ def comparison(text: str, start: int, end: int, *, kind: str, after: int) -> Com
     behind = _AFTER_RE.match(text, end)
     last = _LAST_WORD.match(text, end)
     if found is not None and (behind is None or not _LOOSE.match(text, found[1])):
-        again = last.end() if last is not None and last[found[0]] else end  # "at most 10 W, no more"
-        return Comparison(comparator=found[0], start=found[1], end=again)
+        return Comparison(comparator=found[0], start=found[1], end=end)
     if last is not None and behind is None:
         said: Comparator = next(bound for bound in _BOUNDS if last[bound])
         return Comparison(comparator=said, start=start, end=last.end())

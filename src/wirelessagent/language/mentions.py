@@ -163,11 +163,8 @@ NOBODY = Phrases(either("figures", "users", "nobody"))
 _INCLUSIVE = deferred(rf"(?i)(?:\s*[,(\uff0c]?\s*{_INCLUDED}\s*\)?,?)?\s*")
 _BEFORE_EACH = deferred(rf"{_INCLUSIVE.pattern},?\s*(?:(?:{either('figures', 'users', 'takes')})\s+)?")
 _EACH_OF = deferred(rf"(?i)(?:{either('figures', 'users', 'each_of')})\s*{ANY_NOUN}?\s*(?:from|de|von|entre)?\s*$")
-_ROW = deferred(rf"(?i)\b{WORD_NUMBER}(?:\s+{WORD_NUMBER})+\s+(?:{AND})\s+{WORD_NUMBER}\b{_ENDS_THERE}")
-_MOST_IN_A_ROW = 12
-_LONGEST_RANGE, _NEAR, MOST_USERS, _FAR_OFF = 100, 25, 100, 5
-"""How many users a range may have, how near what leaves out stands, and from where on a number behind users that is so
-many times theirs is none."""
+_LONGEST_RANGE, _NEAR, MOST_USERS = 100, 25, 100
+"""How many users a range may have, how near what leaves out stands, and how small the number of a user is."""
 _UP_TO = deferred(rf"(?i)\s*号?(?:{_TO}(?:l')?(?:{_NO}\s*)?|\s*[到至]\s*)")
 _ITEM = deferred(rf"(?i)[0-9]+|\b{_ORDINAL}\b|\b{WORD_NUMBER}\b|[一二三四五六七八九十]+")
 _AND_BETWEEN = deferred(r"(?i)[a-z和与跟及&/、]")
@@ -193,19 +190,10 @@ def mentions(plain: str, names: Sequence[str] = (), taken: Sequence[tuple[int, i
     [('named', ('3', '5')), ('others', ())]
     """
     found: list[Mention] = []
-    spoken_of = _spoken_of(plain)
-    for mention in [*_own_names(plain, names), *_placed(plain, len(names), spoken_of), *spoken_of]:
+    for mention in [*_own_names(plain, names), *_by_place(plain, len(names)), *_spoken_of(plain)]:
         if not overlaps((mention.start, mention.end), [*taken, *((other.start, other.end) for other in found)]):
             found.append(mention)
     return merged(plain, sorted(found, key=lambda mention: mention.start))
-
-
-def _placed(plain: str, count: int, spoken_of: Sequence[Mention]) -> Iterator[Mention]:
-    """Users by their place, with the list of the same behind: "the odd-numbered users 1, 3, 5 and 7"."""
-    for each in _by_place(plain, count):
-        lists = (other for other in spoken_of if {*other.users} == {*each.users} and each.start < other.end)
-        near = (other for other in lists if other.start <= each.end or not plain[each.end : other.start].strip())
-        yield replace(each, end=max((other.end for other in near), default=each.end))
 
 
 def _own_names(plain: str, names: Sequence[str]) -> Iterator[Mention]:
@@ -230,10 +218,7 @@ def _by_place(plain: str, count: int) -> tuple[Mention, ...]:
         if group.endswith("___") and any(len(each.users) > 1 and each.end <= match.start() for each in named(plain)):
             continue  # "users 5 to 8, the first two at 1 Mbit/s"
         said = [number for part in _ITEM.finditer(words) if (number := _number(part.group())) is not None]
-        several = (
-            [each for each in said if each > 1] if group.startswith(("first", "last")) else said
-        )  # "die ersten vier"
-        number = max(several, default=2)
+        number = max(said, default=2)
         first, last, step = {
             "odd": (1, count, 2), "even": (2, count, 2), "nth": (max(number, 2), count, max(number, 2)),
             "first": (1, number, 1), "all_of": (1, count if number == count else 0, 1),
@@ -267,41 +252,24 @@ def named(plain: str) -> Iterator[Mention]:
             continue
         end = _without_quantity(plain, match, group)
         users = listed_users(plain[match.start(group) : min(end, match.end(group))])
-        if users and end > match.start(group):
+        if users:
             yield Mention(role="named", users=users, start=match.start(), end=end)
-    yield from _in_a_row(plain)
-
-
-def _in_a_row(plain: str) -> Iterator[Mention]:
-    """Three or more small numbers in words that grow, which no figure is said by: "only one two five and eight"."""
-    for match in _ROW.finditer(plain):
-        values = [_number(item[0]) or 0 for item in _ITEM.finditer(match[0])]
-        grows = all(0 < one < other <= _MOST_IN_A_ROW for one, other in itertools.pairwise(values))
-        if grows and len(values) > 2 and unit_at(plain, match.end()) is None:
-            yield Mention(role="named", users=tuple(map(str, values)), start=match.start(), end=match.end())
 
 
 def _without_quantity(plain: str, match: re.Match[str], group: str) -> int:
-    """Where the list ends when its last number is no user: "users 1 and 2, 10 W", "user 5 to 450"."""
+    """Where the list ends when its last number is no user: "users 1 and 2, 10 W"."""
     if group in ("ordinal", "short", "symbol", "rate_of", "nth"):
         return match.end()
     offset = match.start(group)
     parts = [
         (_number(part[0]) or 0, offset + part.start(), offset + part.end()) for part in _ITEM.finditer(match[group])
     ]
-    last = parts[-2][2] if len(parts) > 1 else offset  # where the list ends without its last number
     for (one, _, end), (other, start, _) in itertools.pairwise(parts):  # "4, 6 and 7 to 1, 2 and 5 Mbit/s"
         if other < one and _UP_TO.fullmatch(plain, end, start):
             return end
-    if len(parts) > 1 and COUNTS_OTHERS.match(plain, parts[-1][2]):  # "user 3 and 4 subcarriers per block"
-        return last
-    if len(parts) > 1 and parts[-1][0] >= max(MOST_USERS, _FAR_OFF * parts[-2][0]):  # "users 1 and 2, 500"
-        return last
-    if parts and unit_at(plain, parts[-1][2]) is not None:
-        of_each = len(parts) == 2 and is_of_each(plain, offset)  # "each user 1 to 5 Mbit/s"
-        return offset if of_each or plain[last : parts[-1][1]] == "," else last  # "1,5 Mbit/s"
-    is_range = len(parts) > 1 and _UP_TO.fullmatch(plain, last, parts[-1][1])
-    return last if is_range and parts[-1][0] - parts[-2][0] >= _LONGEST_RANGE else match.end()
+    last = parts[-2][2] if len(parts) > 1 else offset  # where the list ends without its last number
+    others = len(parts) > 1 and COUNTS_OTHERS.match(plain, parts[-1][2])  # "user 3 and 4 subcarriers per block"
+    return last if others or unit_at(plain, parts[-1][2]) is not None else match.end()
 
 
 def is_of_each(plain: str, start: int) -> bool:
@@ -316,7 +284,7 @@ def listed_users(text: str) -> tuple[str, ...]:
     for part in _ITEM.finditer(text):
         word = part.group()
         user = _number(word)
-        if user is None and is_chinese(word[0]) and "十" not in word:  # 一二七号
+        if user is None and is_chinese(word[0]):  # 一二七号
             *more, user = (int(chinese_value(digit) or 0) for digit in word)
             users.extend(more)
         if user is None:
@@ -395,7 +363,7 @@ def _but_for(plain: str, found: Sequence[Mention]) -> list[Mention]:
     for each in found:
         if kept and each.start < kept[-1].end:  # "odd users other than 7"
             continue
-        several = len(each.users) > 1 and not NOBODY.search(plain[clause_start(plain, each.start) : each.start])
+        several = len(each.users) > 1
         behind = _BUT_FOR.match(plain, each.end) if several else None
         said = behind or (_ALL_BUT.search(plain, 0, each.start) if several else None)
         without = listed_users(said["one"] or said["other"]) if said and unit_at(plain, said.end()) is None else ()
@@ -425,8 +393,7 @@ def _distributed(plain: str, found: Sequence[Mention]) -> list[Mention]:
             continue
         while len(mention.users) > 1 and kept and kept[-1].role == "everybody":
             each = kept[-1]
-            denied = NOBODY.search(plain[each.start : each.end])  # which is read elsewhere
-            if denied or _OUT_OF_THOSE.fullmatch(plain, each.end, mention.start) is None:
+            if _OUT_OF_THOSE.fullmatch(plain, each.end, mention.start) is None:
                 break
             mention = replace(mention, start=kept.pop().start)
             if len(mention.users) == 2 and _FROM_ONE_TO.match(plain, each.end):  # "everybody between user 2 and user 5"

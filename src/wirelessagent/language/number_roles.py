@@ -1,8 +1,7 @@
 """What the numbers of a sentence are: users, figures by the unit of another, weights, sizes of blocks, descriptions.
 
 The model says which are users ("al 6"), which borrow the unit of another figure ("the others only one"), which weigh
-and which only describe; thresholds decide, and what a number in its place can be at all: a bounded number is no user, a
-scaled one no weight.
+and which only describe; thresholds decide, and what a number in its place can be at all: a bounded number is no user.
 
 So a sentence is looked at twice: before anybody asks what its numbers are, and with those settled that turned out to be
 users or to borrow a unit, which get their unit and their value then ("user 3 needs 2 Mbit/s, the others only one").
@@ -20,7 +19,6 @@ from typing import TypeVar
 
 from wirelessagent.language.figure_roles import SCALED, Look, View, answers
 from wirelessagent.language.mentions import (
-    BY_PLACE,
     COUNTS_OTHERS,
     GIVEN_TO,
     JOINT,
@@ -32,7 +30,6 @@ from wirelessagent.language.mentions import (
     merged,
 )
 from wirelessagent.language.moods import named_in
-from wirelessagent.language.number_words import listed
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Measure, Quantity, QuantityKind, measures
 from wirelessagent.language.stated import COUNTED_USERS, FOREIGN_UNIT, OF_WEIGHTS, idioms, loose_numbers, may_be_a_limit
@@ -57,12 +54,10 @@ BORROWING: Mapping[str, QuantityKind] = {
 }  # fmt: skip
 _SCALES = {"k": 10**3, "K": 10**3, "M": 10**6, "G": 10**9}
 _DECLARING = frozenset(words_of("figures", "one", "declares"))
-_DENIED = deferred(f"(?i){either('moods', 'negation', 'clause')}")
 _FAR = 200  # no two rates of one sentence are farther apart: another unit is meant
-_ALONE, _HALF, _BEHIND = (either("figures", "one", name) for name in ("alone", "half", "behind_alone"))
+_ALONE, _BEHIND = (either("figures", "one", name) for name in ("alone", "behind_alone"))
 _ONE = Phrases(  # "the others only one", "one two and four", against "one user"
-    rf"(?<![\w'-])(?:{_ALONE}|(?P<part>(?:(?:an?|une?|ein(?:e[nr]?)?)\s+)?(?:{_HALF})))"
-    rf"(?!\w)(?=\s*(?:$|[,.;:!?)]|{_BEHIND})|\s+{WORD_NUMBER}\b)"
+    rf"(?<![\w'-])(?:{_ALONE})(?!\w)(?=\s*(?:$|[,.;:!?)]|{_BEHIND})|\s+{WORD_NUMBER}\b)"
 )
 
 
@@ -78,7 +73,7 @@ def first_look(
     loose = loose_numbers(plain, covered)
     able = any(figure.kind in ("rate", "power") for figure in stated)
     alone = list(ones(plain, [*covered, *((n.start, n.end) for n in loose)])) if able else []
-    unread = [q for q in clear if q.kind == "other" and not overlaps((q.start, q.end), covered)]
+    unread = [q for q in clear if q.kind == "other"]
     return Look(
         plain=plain, quantities=quantities, figures=stated, unread=unread, mentions=found, loose=loose, ones=alone
     )
@@ -105,12 +100,10 @@ def _with_named(look: Look, named: Iterable[tuple[str, Span]]) -> list[Mention]:
 
 
 def ones(plain: str, taken: Sequence[Span]) -> Iterator[Number]:
-    """Every "one" or "half" of a normalised text that stands alone, where no ``taken`` span is: no article is one."""
+    """Every "one" of a normalised text that stands alone, where no ``taken`` span is: no article is one."""
     for match in _ONE.finditer(plain):
         if not overlaps(match.span(), taken):
-            part = match["part"]
-            value = Decimal(1) if part is None else listed("parts")[part.split()[-1]]
-            yield Number(value=value, start=match.start(), end=match.end(), form="words")
+            yield Number(value=Decimal(1), start=match.start(), end=match.end(), form="words")
 
 
 def figures_of(
@@ -149,17 +142,14 @@ def _declared(plain: str, measured: Sequence[Measure]) -> Iterator[Measure]:
     """
     taken = [(each.start, each.end) for each in measured]
     for match in WORD_OR_SIGN.finditer(plain):
-        unit = None if overlaps(match.span(), taken) else unit_at(plain, match.start())
-        if unit is None or unit.kind == "ratio":
+        start, unit = match.start(), unit_at(plain, match.start())
+        if unit is None or overlaps(match.span(), taken):
             continue
-        start, taken = match.start(), [*taken, (match.start(), unit.end)]
-        first, last = clause_start(plain, start), clause_end(plain, unit.end)
-        ahead, behind = (
-            WORD_OR_SIGN.findall(plain[slice(*span)].lower()) for span in ((first, start), (unit.end, last))
-        )
-        bracketed = plain[start - 1 : start] == "[" and plain[unit.end : unit.end + 1] == "]"  # "floors [kbps]: …"
-        said_in = ahead[-1:] in (["in"], ["en"]) and not behind and _DENIED.search(plain, first, start) is None
-        if said_in or bracketed or {*ahead, *behind} <= _DECLARING:
+        taken.append((start, unit.end))
+        ahead = WORD_OR_SIGN.findall(plain[clause_start(plain, start) : start].lower())
+        behind = WORD_OR_SIGN.findall(plain[unit.end : clause_end(plain, unit.end)].lower())
+        said_in = ahead[-1:] in (["in"], ["en"]) and not behind
+        if said_in or {*ahead, *behind} <= _DECLARING:
             number = Number(value=Decimal(1), start=start, end=start, form="words")
             yield Measure(number=number, unit=unit, start=start, end=unit.end)
 
@@ -178,12 +168,11 @@ def _value(
         return float(number.value) * earlier[-1] if earlier else None
     if scaled is not None:
         return float(number.value * _SCALES[scaled.group().strip()])
-    able = [measure for measure in units if measure.unit is not None and measure.unit.kind == kind]
-    before = [measure for measure in able if measure.end <= number.start][::-1]
-    after = [measure for measure in able if measure.end > number.start]
+    able = [(each.end, each.unit) for each in units if each.unit is not None and each.unit.kind == kind]
+    before = [unit for end, unit in able if end <= number.start][::-1]
     alike = [figure.value for figure in stated if figure.kind == kind]
-    for measure in (*before, *after):
-        value = measure.unit.value(number.value) if measure.unit is not None else 0.0
+    for unit in (*before, *(unit for _, unit in able)):
+        value = unit.value(number.value)
         if not alike or any(1 / _FAR <= value / other <= _FAR for other in alike if other > 0):
             return value
     return None
@@ -210,7 +199,7 @@ _WEIGHTS = deferred(  # what follows are weights, whatever else they may look li
 )
 _NEAR_BY, _ENDS = 40, deferred(r"[0-9.;!?。；]")  # of a list and its users, and what stands between neither
 _MOST_BARE_USERS = 100  # who is called by a number alone has a small one
-_SURE_OF_A_USER, _SURE_OF_A_WEIGHT, _SURE_OF_NOTHING, _SURE_OF_A_FIGURE, _SURE_OF_ONE = 0.6, 0.6, 0.6, 0.6, 0.5
+_SURE_OF_A_USER, _SURE_OF_A_WEIGHT, _SURE_OF_NOTHING, _SURE_OF_A_FIGURE = 0.6, 0.6, 0.6, 0.6
 _CERTAIN_OF_A_USER, _SURE_OF_A_GROUP, _LIKELY, _PERHAPS = 0.8, 0.5, 0.4, 0.2
 _Roles = Mapping[Number, Mapping[str, float]]
 """How likely each number has each role."""
@@ -234,7 +223,7 @@ class Numbers:
     def __init__(self, plain: str, quantities: Sequence[Quantity], names: Sequence[str], taken: Sequence[Span]) -> None:
         first = first_look(plain, quantities, names, taken)
         view = first.view()
-        self.strangers = _without_known(plain, view.strangers())
+        self.strangers = _without_limits(plain, view.strangers())
         if self.strangers:
             called = _with_named(first, ((plain[slice(*span)], span) for span in self.strangers))
             first = dataclasses.replace(first, mentions=called)
@@ -305,8 +294,8 @@ def _users_of(
     together = _sizes(named)  # "user 3 and user 7, the two …"
     able = [n for n in able if n.value not in together or not _SEVERAL.search(first.plain, 0, n.start)]
     read = [*first.figures, *first.loose, *first.mentions]
-    alone = ones(first.plain, [*taken, *((each.start, each.end) for each in read)]) if able else ()
-    return _users(first.plain, able, [number for number in alone if number.value == 1], named, chances)
+    alone = list(ones(first.plain, [*taken, *((each.start, each.end) for each in read)])) if able else []
+    return _users(first.plain, able, alone, named, chances)
 
 
 def _sizes(found: Sequence[Mention]) -> set[int]:
@@ -319,11 +308,9 @@ def everybody_named(found: Sequence[Mention]) -> list[Mention]:
     return [mention for mention in found if mention.role in ("named", "others")]
 
 
-def _without_known(plain: str, strangers: Sequence[Span]) -> list[Span]:
-    """Names that no user is known by, without those of limits and of users by their place ("odd-numbered users")."""
-    if not strangers:
-        return []
-    known = [*(span for span, _ in named_in(plain)), *(match.span() for match in BY_PLACE.finditer(plain))]
+def _without_limits(plain: str, strangers: Sequence[Span]) -> list[Span]:
+    """Names that no user is known by, without those of limits."""
+    known = [span for span, _ in named_in(plain)] if strangers else []
     return [each for each in strangers if not any(is_within(each, span) for span in known)]
 
 
@@ -415,8 +402,6 @@ def _is_a_figure(look: Look, number: Number, chances: Mapping[str, float], role:
     if look.bound(number) not in ("", "None") and chances["user"] < _LIKELY:  # which nobody is
         given = _TO_SOMEBODY.match(look.plain, number.end) is not None  # "maximum of five for user 7"
         sure /= 1 - chances["user"] - given * chances["harmless"]
-    if number in look.ones:
-        return sure > _SURE_OF_ONE
     if SCALED.match(look.plain, number.end):
         return role == "rate" and sure > _LIKELY
     return sure > (_LIKELY if BORROWING[role] == "ratio" else _SURE_OF_A_FIGURE)
@@ -430,7 +415,7 @@ def _says_nothing(number: Number, chances: Mapping[str, float], named: set[str])
 
 def _weighs(plain: str, number: Number, chances: Mapping[str, float]) -> bool:
     """Whether a number says how much somebody counts."""
-    able = number.value is not None and 0 <= number.value < _MOST_WEIGHT and SCALED.match(plain, number.end) is None
+    able = number.value is not None and 0 <= number.value < _MOST_WEIGHT
     return able and chances["weight"] > _SURE_OF_A_WEIGHT
 
 
@@ -448,7 +433,7 @@ def _weighing_lists(look: Look, chances: _Roles) -> list[Number]:
 def _rates_of_lists(look: Look, chances: _Roles) -> list[Number]:
     """The numbers of lists that end with a rate, next to as many users: "2, 3 and 5 Mbit/s for 1, 4 and 6".
 
-    Of two, the first has to be no likely user, and what is likely a power or a weight is no rate.
+    Of two, the first has to be no likely user.
     """
     plain = look.plain
     able = [n for n in look.loose if n.value is not None and n.value > 0 and n.form != "times"]
@@ -462,10 +447,9 @@ def _rates_of_lists(look: Look, chances: _Roles) -> list[Number]:
         numbers, figure = [item for item in each[:-1] if isinstance(item, Number)], each[-1]
         if len(numbers) < len(each) - 1 or not numbers or not isinstance(figure, Quantity):
             continue
-        strange = any(chances[n]["power"] + chances[n]["weight"] > _PERHAPS for n in numbers)
         likely_users = len(numbers) == 1 and chances[numbers[0]]["user"] > _PERHAPS
         for_each = any(m.role == "everybody" and plain[figure.end : m.start].isspace() for m in look.mentions)
-        if strange or likely_users or for_each or _WEIGHTS.search(plain, 0, each[0].start):
+        if likely_users or for_each:
             continue
         as_many = [(start, end) for start, end, count in named if count == len(each)]
         gaps = [(end, each[0].start) if end <= each[0].start else (figure.end, start) for start, end in as_many]
@@ -497,12 +481,11 @@ def _users(
         own = [item for item in each if isinstance(item, Number)]
         judged = [n for n in own if n not in singles]
         apart = len({n.value for n in own}) == len(own)  # not "w = [2, 1, 1]"
-        certain = len(own) == len(judged) and all(chances[n]["user"] > _CERTAIN_OF_A_USER for n in own)
         pairs = [(one, other) for one, other in itertools.pairwise(each) if isinstance(one, Mention)]
         pairs = [(one, other) for one, other in pairs if isinstance(other, Number) and other not in (*singles, *given)]
         beside = any(_BOTH.fullmatch(plain, one.end, other.start) for one, other in pairs)
         called = [other for one, other in pairs if _AND_THE.fullmatch(plain, one.end, other.start)]
         sure = beside or any(chances[n]["user"] > _SURE_OF_A_USER for n in judged)
-        if sure and (apart or certain) and _WEIGHTS.search(plain, 0, each[0].start) is None:
+        if sure and apart:
             found += [n for n in own if n in singles or chances[n]["user"] > _ONE_OF_A_LIST or n in called]
     return found

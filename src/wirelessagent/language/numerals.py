@@ -1,7 +1,7 @@
 """Numbers as people write and say them, in digits, words and Chinese numerals, exact as decimals.
 
-Missing on purpose: ordinals, thirds, and vague amounts ("a few", 三十来), which are reported as numbers without a value
-so that nobody acts on half of one ("a few hundred" is not 100).
+Missing on purpose: ordinals, and vague amounts ("a few", 三十来), which are reported as numbers without a value so that
+nobody acts on half of one ("a few hundred" is not 100).
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 
 from wirelessagent.language.number_words import Spoken, cardinals, languages_of, listed, spoken
-from wirelessagent.language.text import AND, USER_NOUN, Phrases
+from wirelessagent.language.text import USER_NOUN, Phrases
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import language_of
 from wirelessagent.language.word_tables import any_word, deferred, table, words_of
@@ -55,9 +55,7 @@ _AND_PART = deferred(
     r"\s?(?P<sign>[½¼¾]))"
 )
 _OVER = deferred(r"/(?P<below>[1-9][0-9]?)(?![0-9/])(?:\s+(?:of\s+an?|de|d'un))?")
-_SCALED, _LISTED_AHEAD = deferred(r"[kKM](?![A-Za-z])"), deferred(rf"(?i)[0-9]\s*(?:,|&|和|、|\b{AND}\b)\s*$")
 _VAGUELY = deferred(r"[来多余几]")
-_THOUSANDFOLD = deferred(r"比特|字节|瓦(?!时)")
 _GROUPED_AHEAD = deferred(  # "en bloques de four"
     rf"(?i)\b{any_word('figures', 'grouped', 'groups')}\s+{any_word('figures', 'grouped', 'joints')}\s+$"
 )
@@ -194,10 +192,9 @@ def _in_digits(text: str, match: re.Match[str], language: str) -> Number:
     group = "digits" if match["digits"] else "fraction"
     digits, start, end = match[group], match.start(group), match.end()
     is_name = _is_name(text, start)
-    scaled = _SCALED.match(text, match.end(group)) is not None
     ranged = _RANGED.search(text, max(0, start - 40), start) is not None  # "users 1 to 4 500 kbit/s"
-    if " " in digits and (is_name or ranged or (scaled and _LISTED_AHEAD.search(text, 0, start))):
-        digits = digits.split(" ")[0]  # "UE 2 750 kbit/s", "1 and 2 300k": a name, then a figure
+    if " " in digits and (is_name or ranged):
+        digits = digits.split(" ")[0]  # "UE 2 750 kbit/s": a name, then a figure
         return Number(value=Decimal(digits), start=start, end=start + len(digits), form="digits")
     value = _PARTS.get(digits) or _digits_value(digits, language)
     if value is None:
@@ -205,20 +202,14 @@ def _in_digits(text: str, match: re.Match[str], language: str) -> Number:
     if match["exponent"]:
         value = value.scaleb(int(match["exponent"]))
     if match["scale"]:
-        value *= _scale_value(match["scale"].lower().removesuffix("d'").removesuffix("de").strip(), language)
+        scale = match["scale"].lower().removesuffix("d'").removesuffix("de").strip()
+        value *= _SCALES.get(scale) or math.prod(_CHINESE_SCALES[letter] for letter in scale)
     over, part = _OVER.match(text, end), and_part(text, end)
-    if over is not None and not match["scale"] and unit_at(text, over.end()) is not None:
-        share = value / int(over["below"])
-        value, end = share if share * int(over["below"]) == value else None, over.end()
+    if over is not None and unit_at(text, over.end()) is not None:
+        value, end = value / int(over["below"]), over.end()
     elif part is not None and not is_name and unit_at(text, part[1]) is not None:
         value, end = value + part[0], part[1]
     return Number(value=value, start=start, end=end, form="digits")
-
-
-def _scale_value(scale: str, language: str) -> int:
-    if scale == "mil" and language != "es":
-        return 1
-    return _SCALES.get(scale) or math.prod(_CHINESE_SCALES[letter] for letter in scale)
 
 
 def _digits_value(digits: str, language: str) -> Decimal | None:
@@ -246,9 +237,7 @@ def _in_words(text: str, match: re.Match[str], own: str) -> tuple[Number | None,
         if number is None:
             continue
         measured = unit_at(text, number.end) is not None or _GROUPED_AHEAD.search(text, 0, number.start) is not None
-        alone = said.value is not None or number.form == "words"
-        if said.is_article:
-            alone = text[number.start : number.end].lower() == "eines"
+        alone = text[number.start : number.end].lower() == "eines" if said.is_article else said.value is not None
         if (language == own and alone) or (measured and not (said.is_article and language == "en" != own)):
             return number, language
     return None, own
@@ -259,8 +248,6 @@ def _placed(text: str, match: re.Match[str], said: Spoken, places: list[re.Match
     if said.value is None and _AS_FEW.search(text, max(0, start - 8), start):
         return None  # "as few watts as possible"
     end, linked = start + places[said.words - 1].end(), start + places[said.linked - 1].end()
-    if said.linked > said.words and text[linked : linked + 1] == "'":
-        linked += 1
     if linked > end and unit_at(text, linked) is not None:
         end = linked
     is_name = said.words > 1 and _is_name(text, start) and _PLURAL.search(text, max(0, start - 40), start) is None
@@ -273,7 +260,7 @@ def _placed(text: str, match: re.Match[str], said: Spoken, places: list[re.Match
 def _in_chinese(text: str, match: re.Match[str]) -> Number:
     numeral, end = match["chinese"], match.end()
     value = chinese_value(numeral)
-    if value is None and numeral.endswith("千") and _THOUSANDFOLD.match(text, end):
+    if value is None and numeral.endswith("千"):
         value, end = chinese_value(numeral[:-1]), end - 1  # 一百二十八千比特: 千比特 is the unit
     return Number(value=value, start=match.start("chinese"), end=end, form="chinese")
 

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Literal, TypeAlias
 
-from wirelessagent.language.comparators import BETWEEN, Comparator, comparison
+from wirelessagent.language.comparators import Comparator, comparison
 from wirelessagent.language.mentions import GIVEN_TO, is_of_each
 from wirelessagent.language.number_words import cardinals, listed
 from wirelessagent.language.numerals import NUMBERED, Number, and_part, chinese_value, numbers
@@ -45,8 +45,7 @@ _APIECE_BEFORE = deferred(
 )
 _PRICE = deferred(r"[€$£¥]\s?$")
 _SUFFIXES = {"k": Decimal(10**3), "K": Decimal(10**3), "M": Decimal(10**6), "G": Decimal(10**9)}
-GENERATION = deferred(r"[2-7]G(?![A-Za-z/])|[248]K(?![A-Za-z/])")
-_PICTURE = deferred(r"[248]K")
+_GENERATION = deferred(r"[2-7]G(?![A-Za-z/])|[248]K(?![A-Za-z/])")
 _TRAILING_HALF = deferred(r"半(?!小时)")
 _TRAILING_DIGIT = deferred(
     r"(?P<digit>[一二三四五六七八九])(?![零〇一二三四五六七八九十百千万亿点半个号户位人台家成兆瓦毫kKM])"
@@ -65,9 +64,7 @@ _EVENT, _AMONG = f"{any_word('figures', 'odds', 'events')}s?", any_word("figures
 _AMONG_AHEAD = deferred(
     rf"(?i)[\s-]+(?:(?P<event>{_EVENT})[\s-]+(?:of|{_AMONG})|{_AMONG})[\s-]+(?:(?:every|each|je|an?)\s+)?$"
 )
-_PART_AHEAD = deferred(
-    rf"(?i)(?<![\w.,-])(?:(?P<once>{'|'.join(sorted(_ONCE, key=len, reverse=True))})|{'|'.join(_A_SINGLE)})$"
-)
+_PART_AHEAD = deferred(rf"(?i)(?<![\w.,-])(?:{'|'.join(sorted({**_ONCE, **_A_SINGLE}, key=len, reverse=True))})$")
 _ROUND, _FEWEST, _NEAR = (10, 20, 25, 40, 50, 100, 200, 500, 1000), 10, 40
 """Of how many parts a share is said by no more than a word for "of", and of how many at least by what happens; how
 far the words for that reach."""
@@ -131,15 +128,17 @@ def _read(plain: str, number: Number) -> Measure:
         return _with_half(plain, number, unit)
     if share is not None:
         return share
+    if _GENERATION.match(plain, number.start):
+        return Measure(number=number, unit=None, start=number.start, end=number.end)
     unit, end, factor = None, number.end, Decimal(1)
     suffix = _SUFFIX.match(plain, end) if number.form == "digits" else None
     spoken = number.form == "chinese" and number.value is not None and end - number.start > 1
     written = (number.form == "digits" or spoken) and has_chinese(plain)
     chinese = _CHINESE_SUFFIX.match(plain, end) if written else None
-    if chinese is not None and not _PICTURE.match(plain, number.start):
+    if chinese is not None:
         end = chinese.end()
         unit = Unit(kind="rate", end=end, factor=_SUFFIXES[chinese["suffix"]])
-    elif suffix is not None and not GENERATION.match(plain, number.start):
+    elif suffix is not None:
         scale = _SUFFIXES[suffix["suffix"] or "M"]
         if suffix["suffix"] != "G" and _is_apiece(plain, number.start, suffix.end()):
             end = suffix.end()
@@ -211,8 +210,7 @@ def _share(plain: str, number: Number) -> Measure | None:
         return _ratio(value / below, over.start(), end, form=number.form)
     if tenths is not None and 0 < value < 10:
         more = "".join("5" if letter == "半" else str(chinese_value(letter)) for letter in tenths["more"] or "")
-        share = Decimal(f"{value}{'' if value != int(value) else '.'}{more or 0}") / 10
-        return _ratio(share, start, tenths.end(), form=number.form)
+        return _ratio((value + Decimal(f"0.{more or 0}")) / 10, start, tenths.end(), form=number.form)
     return None
 
 
@@ -238,8 +236,7 @@ def _odds(plain: str) -> Iterator[Measure]:
             part = Number(value=count, start=word.start(), end=word.end(), form="words")
         if part is not None and NUMBERED.search(plain, 0, part.start):  # "usuario 8 entre 200 y 900 kbit/s"
             continue
-        happens = ahead["event"] or (word is not None and word["once"])
-        if part is not None and (whole.value >= _FEWEST if happens else whole.value in _ROUND):
+        if part is not None and (whole.value >= _FEWEST if ahead["event"] else whole.value in _ROUND):
             yield from _in_all(plain, part.value, whole.value, (part.start, whole.end))
 
 
@@ -280,26 +277,19 @@ _AFTER_BARE = deferred(
     r"(?:de\s+)?(?:probabilit|outage|wahrscheinlich)|"
     rf"{'|'.join(either('figures', *each) for each in _NO_UNITS)}))"
 )
-_ARTICLES = frozenset(words_of("figures", "numbers", "articles"))
 _NAMES = deferred(rf"(?i)(?:{either('figures', 'named', 'numbered')}|\bno\.|[#№])\s*$")
 _CHINESE_COUNTED = deferred(
     r"\s*(?:[千兆]?瓦时|[千兆毫微]?(?:赫|米|秒|焦)|个|号|名|位|路|台|人|用户|小时|分钟|点|月|日|年|公里|次|倍|度|成)"
 )
-_VARIABLE = deferred(r"\s+[A-Za-z]{1,3}_?[0-9]")  # "R6=700k R7=900k"
 _FOREIGN_UNIT = deferred(r"\s?[A-Za-zμ][A-Za-zμ/]*")
-_FOREIGN_APIECE = deferred(
+_FOREIGN_APIECE_AFTER = deferred(
     r"(?i)\s?(?!users?\b|ues?\b)[A-Za-zμ][A-Za-zμ/]*\s*(?:each\b|apiece\b|per\s+(?:user|person|head)\b|每)"
 )
 _RANGE = deferred(rf"\s*(?:-|–|—|~|(?i:(?:to|through|à|bis|{AND})\b)|到|至)\s*$")
-_NOR = deferred(rf"(?i)[^.;:]*?(?:{either('figures', 'bounds', 'nor')})(?P<who>[^,.;:]*)")
-_SUBJECTS = BETWEEN.union(words_of("figures", "bounds", "nor_whom"))
+_NOR = deferred(rf"(?i)[^.;:]*?(?:{either('figures', 'bounds', 'nor')})[^,.;:]*")
 _SOMEBODY = deferred(rf"(?i)\b{any_word('figures', 'users', 'single')}\s+$")
-_OWN_NOUN = deferred(  # "each user's rate no lower than" bounds the rate, and wishes for none
-    r"(?:用户|每人|人均|每个|每户|各|UE|终端|大家|的)的?(?P<noun>(?:下行|数据)?(?:速率|速度|网速|吞吐量?))(?:都|"
-    r"也)?(?:要|得|必须|应|须)?$"
-)
 _AGAIN = deferred(
-    rf"(?i)(?:\s*(?P<open>[(\uff08])\s*(?:(?:[=≈]|{either('figures', 'one', 'again')})[\s.]*)?|\s*[=≈]\s*|"
+    rf"(?i)(?:\s*[(\uff08]\s*(?:(?:[=≈]|{either('figures', 'one', 'again')})[\s.]*)?|\s*[=≈]\s*|"
     rf"\s*[,\uff0c]?\s*(?:{either('figures', 'one', 'again')})(?![a-z])[\s.,\uff0c:]*)"
 )
 _CLOSED = deferred(r"(?i)\s*(?:$|[,.;:!?)\uff0c。；、)]|(?:at most|max|tops|and|or less|au plus)\b)")
@@ -373,9 +363,7 @@ def parse_quantities(text: str) -> tuple[Quantity, ...]:
 def _as_denied(plain: str, found: Sequence[Quantity], figure: Quantity) -> Quantity:
     """A figure bounded as the one before where one verb denies both: "no user above 4 Mbit/s nor the power 13 W"."""
     nor = _NOR.fullmatch(plain, found[-1].phrase_end, figure.start) if found and figure.comparator is None else None
-    words = re.findall(r"[^\W\d_]+", nor["who"].lower()) if nor else ()
-    alike = nor and _SUBJECTS.issuperset(words)  # without a verb of its own
-    return dataclasses.replace(figure, comparator=found[-1].comparator) if alike else figure
+    return dataclasses.replace(figure, comparator=found[-1].comparator) if nor else figure
 
 
 def _said_once(text: str, plain: str, found: Iterable[Quantity]) -> list[Quantity]:
@@ -384,15 +372,12 @@ def _said_once(text: str, plain: str, found: Iterable[Quantity]) -> list[Quantit
     for each in found:
         first = once[-1] if once else each
         again = _AGAIN.fullmatch(plain, first.phrase_end, each.start)
-        end = each.end + 1 if again and again["open"] else each.end
-        closed = plain[each.end : end] in ("", ")", "\uff09") and _CLOSED.match(plain, max(end, each.phrase_end))
-        bounds = {first.comparator, each.comparator} - {None}
-        units = {_DIGITS.sub("", figure.text) for figure in (first, each)}
         same = math.isclose(first.value, each.value, rel_tol=_ROUNDED) and {first.kind, each.kind} == {"power"}
-        if again and closed and same and len(units) > 1 and len(bounds) < 2:
+        units = {_DIGITS.sub("", figure.text) for figure in (first, each)}
+        if again and same and len(units) > 1 and _CLOSED.match(plain, each.phrase_end):
             each = dataclasses.replace(
-                once.pop(), text=text[first.start : end], end=end, comparator=first.comparator or each.comparator,
-                phrase_end=max(end, each.phrase_end),
+                once.pop(), text=text[first.start : each.end], end=each.end,
+                comparator=first.comparator or each.comparator, phrase_end=each.phrase_end,
             )  # fmt: skip
         once.append(each)
     return once
@@ -436,19 +421,15 @@ def _bounded(text: str, plain: str, measure: Measure, *, after: int, until: int)
     if kind is None or (bounds.comparator is None and _is_no_figure(plain, measure, kind)):
         return None
     word = plain[number.start : number.end].lower()
-    if (word in _ARTICLES and unit is None) or (
-        word in ("a", "an") and not (unit is not None and (bounds.comparator or unit.kind == "rate"))
-    ):  # "un maximum de débit"
+    if word in ("a", "an") and bounds.comparator is None and kind != "rate":
         return None
-    bounded_rate = bounds.comparator and kind == "rate"
-    own = _OWN_NOUN.search(plain, max(0, bounds.start - 12), bounds.start) if bounded_rate else None
     foreign = _FOREIGN_UNIT.match(plain, measure.end, until) if kind == "other" and unit is None else None
     end = measure.end if foreign is None else foreign.end()
     return Quantity(
         value=measure.value if kind != "other" else 0.0, kind=kind, text=text[measure.start : end],
         start=measure.start, end=end,
-        comparator=bounds.comparator, phrase_start=max(after, own.start("noun")) if own else bounds.start,
-        phrase_end=max(end, bounds.end), doubtful=unit is not None and unit.doubtful,
+        comparator=bounds.comparator, phrase_start=bounds.start, phrase_end=max(end, bounds.end),
+        doubtful=unit is not None and unit.doubtful,
     )  # fmt: skip
 
 
@@ -472,14 +453,13 @@ def _kind_not_understood(plain: str, measure: Measure, *, bounded: bool) -> Quan
         return None
     if measure.number.form == "chinese" or _CHINESE_COUNTED.match(plain, measure.end):
         return None
-    if GENERATION.match(plain, measure.start) or "/" in (plain[measure.end :][:1], plain[: measure.start][-1:]):
+    if _GENERATION.match(plain, measure.start) or "/" in (plain[measure.end :][:1], plain[: measure.start][-1:]):
         return "other" if bounded else None
     if _is_name(plain, measure.start, bounded=bounded):
         return None
-    variable = measure.factor != 1 and _VARIABLE.match(plain, measure.end)
-    if variable or _AFTER_BARE.match(plain, measure.end) or has_chinese(plain[measure.end :].lstrip()[:1]):
+    if _AFTER_BARE.match(plain, measure.end) or has_chinese(plain[measure.end :].lstrip()[:1]):
         return "bare"
-    return "other" if bounded or _FOREIGN_APIECE.match(plain, measure.end) else None
+    return "other" if bounded or _FOREIGN_APIECE_AFTER.match(plain, measure.end) else None
 
 
 def _is_name(plain: str, start: int, *, bounded: bool = False) -> bool:
