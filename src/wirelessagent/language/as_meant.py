@@ -12,7 +12,7 @@ import functools
 import itertools
 import re
 from collections.abc import Iterator, Mapping
-from decimal import Decimal
+from dataclasses import replace
 
 from wirelessagent.language.comparators import WITH
 from wirelessagent.language.mentions import (
@@ -21,10 +21,8 @@ from wirelessagent.language.mentions import (
     JOINT_WORDS,
     MOST_USERS,
     WORD_NUMBER,
-    named,
 )
-from wirelessagent.language.number_words import whole
-from wirelessagent.language.numerals import NUMBERED, Number, factors, numbers
+from wirelessagent.language.numerals import NUMBERED, factors, numbers
 from wirelessagent.language.quantities import Measure, measures
 from wirelessagent.language.shares import worked_out
 from wirelessagent.language.text import (
@@ -38,7 +36,7 @@ from wirelessagent.language.text import (
     replaced,
     written_over,
 )
-from wirelessagent.language.units import unit_at
+from wirelessagent.language.units import Unit, unit_at
 from wirelessagent.language.vocabulary import language_of
 from wirelessagent.language.word_tables import any_word, deferred, either, table
 
@@ -72,7 +70,7 @@ def heard(text: str) -> str:
 def _fits(name: str, plain: str, start: int, end: int) -> bool:
     """Whether what stands at a place may be what is only heard "behind_numbers" or "ahead_of_units"."""
     if name == "ahead_of_units":
-        return unit_at(plain, end) is not None or _CARRIER_BEHIND.match(plain, end) is not None
+        return unit_at(plain, end) is not None
     return name != "behind_numbers" or len(plain[:start].rstrip()) in {number.end for number in numbers(plain)}
 
 
@@ -88,7 +86,6 @@ def _misheard(name: str, language: str) -> re.Pattern[str]:
 _DIGIT = "一二两三四五六七八九十"
 _NUMBER = rf"(?:(?<![A-Za-z0-9.,])[0-9]+(?:[.,][0-9]+)?|\b{WORD_NUMBER}\b|(?<![{_DIGIT}])[{_DIGIT}]{{1,3}}+)"
 _BREAK = r"\s*+(?:[,;\uff0c；、啊哎哦唉]|[-–—…]++|\.{2,3}+)\s*+"
-_CARRIER_BEHIND = deferred(rf"(?i)\s*{any_word('figures', 'grouped', 'carriers')}\b")
 _CORRECTS, _MEANS, _WAITS = (either("figures", "one", name) for name in ("corrects", "means", "waits"))
 _JOINT = rf"(?:{JOINT_WORDS}|\b{any_word('figures', 'users', 'to')}\b|[~/&+、到至和与]|(?<=[0-9])[-–](?=[0-9]))"
 _FILLED = either("figures", "one", "fillers")
@@ -100,7 +97,6 @@ _RETURN = deferred(  # what stands between a figure and the one that takes its p
 )
 _TAKES_BACK = deferred(rf"(?i){_BACK}")
 _HESITATES = deferred(rf"(?i)(?<![A-Za-zÀ-ÿ'])(?:{_FILLED})(?![A-Za-zÀ-ÿ'])\s*,?(?=\s*(?P<item>{_NUMBER}))")
-_ITEM = deferred(rf"(?i)\s*{_NUMBER}")
 _AND_AHEAD = deferred(rf"(?i)(?:\b(?:{AND})|[和与跟及])\s*$")
 _INSTEAD = deferred(
     rf"(?i)(?:\s*{_TOKEN}){{0,3}}?\s*[,\uff0c]?\s*(?P<instead>(?:{either('figures', 'one', 'instead_of')})\s*)"
@@ -111,7 +107,6 @@ _GOES_ON = deferred(rf"(?i){_ENDED.pattern}|\s+(?:{AND})\b(?!\s*{_NUMBER})")
 _DENIES = ("no", "non", "不", "不是")
 """Words that deny what follows as often as they take back what stands before, when they stand alone."""
 _GOES_ELSEWHERE = deferred(rf"(?i)\s*(?:给|对|(?!(?:{AND})\b|{_BOUND_BEHIND})[A-Za-zÀ-ÿ])")
-_ANOTHER_USER = deferred(rf"(?i){ANY_NOUN}")
 _GIVEN_AHEAD = deferred(rf"(?i)(?:\s*{GIVEN_TO})+\s*$")
 _LIST_AHEAD = deferred(rf"(?i){_NUMBER}\s*号?\s*(?:,\s*)?(?:{_JOINT}|,)\s*(?:{GIVEN_TO}\s*)?(?:{ANY_NOUN}\s*)?$")
 _LIST_BEHIND = deferred(rf"(?i)\s*号?\s*{_JOINT}\s*(?:{GIVEN_TO}\s*)?(?:{ANY_NOUN}\s*)?{_NUMBER}")
@@ -141,12 +136,7 @@ _IN_ITS_PLACE = (  # what stands ahead of a figure that gives way, and between i
 _LED_AHEAD = deferred(rf"(?i){LEADS}\s*$")
 _WAS = deferred(rf"(?i)\s*(?:{_FROM}|(?P<of>{_FROM_OR_OF}))\s*$")
 _CHANGED = deferred(rf"(?i)(?P<up>{RAISES})|(?P<down>{_LOWERS})|{_OTHERWISE}")
-_BEFORE = deferred(rf"(?i)\s*[,(\uff08]\s*(?:{either('figures', 'becoming', 'before')})\s*:?\s*$")
 _LEADS_ON = deferred(rf"(?i){LEADS}|{WITH}|{either('figures', 'becoming', 'may')}")
-_KEEPS = deferred(  # what forbids a change, or allows several: "don't lower it from 2 to 1 W", "may change from 1 to 2"
-    rf"(?i){either('moods', 'negation', 'clause')}|{either('figures', 'bounds', 'forbids')}|"
-    rf"{either('figures', 'becoming', 'may')}"
-)
 
 
 def without_corrected(text: str) -> str:
@@ -182,123 +172,80 @@ def taking_back(plain: str) -> Iterator[Span]:
         if more.casefold().endswith(_DENIES) or (re.fullmatch(_WAITS, said) and not more):
             continue  # "sorry, no min power", "max rate, wait, least power matters, too"
         parted = match["pause"].strip() and match["more"].strip()  # "…, no, …"
-        sure = filled or more or parted or said not in _DENIES
-        if sure and (more or not re.fullmatch(_FILLED, said)):
+        if filled or more or parted or said not in _DENIES:
             yield match.span()
 
 
 def hesitating(plain: str) -> Iterator[Span]:
     """Where a pause stands between two numbers, and the second may take the place of the first.
 
-    >>> list(hesitating("30 W, uh, 32")), list(hesitating("30 W, uh, 30"))
-    ([(6, 9)], [])
+    >>> list(hesitating("30 W, uh, 32"))
+    [(6, 9)]
     """
-    found = measures(plain)
+    ends = {each.end for each in measures(plain)}
     for match in _HESITATES.finditer(plain):
-        ahead = len(plain[: match.start()].rstrip(" ,.\uff0c…"))
-        ones = [each.number.value for each in found if each.end == ahead]
-        others = [each.number.value for each in found if each.start == match.start("item")]
-        if ones and ones != others:
+        if len(plain[: match.start()].rstrip(" ,.\uff0c…")) in ends:
             yield match.span()
 
 
-def turns(plain: str) -> list[Span]:
-    """Where words stand that may take back a figure ahead of them, a "no" among them: "1 W no 2 W", "1 W, no, 2 W".
-
-    No such "no" has a comma on one side alone, or an "and" ahead: "1 W, no 2 W" and "1 W and not 2 W" deny.
-    """
-    found = list[Span]()
-    for match in _TAKES_BACK.finditer(plain):
-        said, filled = match["said"].casefold(), any(map(str.isalpha, match["pause"]))
-        if re.fullmatch(_FILLED, said) and not match["more"].strip(" ,"):
-            continue  # "10 W, uh, 5 W for the circuits"
-        denies = said in _DENIES and not (match["more"] or filled)
-        right_before = _ITEM.match(plain, match.end()) is not None and not match["pause"].strip()
-        if (right_before or not denies) and not _AND_AHEAD.search(plain, 0, match.start("said")):
-            found.append(match.span())
-    return found
+def _alike(plain: str) -> Iterator[tuple[Measure, Measure, Unit, int]]:
+    """Figures side by side of one kind, of which one may lack the unit, with it, and where the one before them ends."""
+    before = 0
+    for one, other in itertools.pairwise(measures(plain)):
+        units = [each.unit for each in (one, other) if each.unit is not None]
+        if len({unit.kind for unit in units}) == 1:
+            yield one, other, units[0], before
+        before = one.end
 
 
 def _not_meant(plain: str) -> Iterator[tuple[int, int, str]]:
-    """Figures that others are said to stand for: "15 W, and not 14", "11 W statt 10 W"."""
-    for one, other in itertools.pairwise(measures(plain)):
-        said = _INSTEAD.fullmatch(plain, one.end, other.start)
-        alike = one.unit is not None and (other.unit is None or other.unit.kind == one.unit.kind)
-        if said is None or not alike:
+    """Figures that others are said to stand for: "15 W, and not 14", "11 W statt 10 W", "to 2 Mbit/s from 1 Mbit/s"."""
+    for one, other, *_ in _alike(plain):
+        if one.unit is None:
             continue
-        parted = "," in said[0] or "\uff0c" in said[0] or said["instead"].strip() not in _DENIES
-        if parted and _GOES_ON.match(plain, other.end):  # but "100 mW no 90 mW" corrects
-            yield said.start("instead"), other.end, ""
+        said, was = (pattern.fullmatch(plain, one.end, other.start) for pattern in (_INSTEAD, _WAS))
+        if said is not None and _GOES_ON.match(plain, other.end):
+            if said["instead"].strip() not in _DENIES or {",", "，"} & {*said[0]}:  # "100 mW no 90 mW" corrects
+                yield said.start("instead"), other.end, ""
+        elif was is not None and other.unit is not None and _LED_AHEAD.search(plain, 0, one.start):
+            yield one.end, other.end, ""
 
 
 def _given_way(plain: str) -> Iterator[tuple[int, int, str]]:
-    """Figures with a unit in whose place others stand: "it was 8 W, make it 6.5", "replace 13 W by 8 W".
-
-    One without a unit gets it.
-    """
-    for one, other in itertools.pairwise(measures(plain)):
-        ends = other.unit is not None or _ENDED.match(plain, other.end) is not None
-        if one.unit is None or not ends or (other.unit is not None and other.unit.kind != one.unit.kind):
-            continue
-        for ahead, between in _IN_ITS_PLACE:
+    """Figures with a unit in whose place others stand: "it was 8 W, make it 6.5", "replace 13 W by 8 W"."""
+    for one, other, *_ in _alike(plain):
+        for ahead, between in _IN_ITS_PLACE if one.unit is not None else ():
             gone, kept = ahead.search(plain, 0, one.start), between.fullmatch(plain, one.end, other.start)
             if gone is not None and kept is not None:
-                unit = "" if other.unit is not None else plain[one.number.end : one.end]
-                yield gone.start("gone"), other.end, kept["kept"] + plain[other.start : other.end] + unit
+                yield from _moved(plain, gone.start("gone"), kept["kept"], one, other)
                 break
 
 
 def _was_before(plain: str) -> Iterator[tuple[int, int, str]]:
-    """What a figure is changed from: "raise the floor from 1 to 2 Mbit/s", "erhöhe auf 2 Mbit/s von 500 kbit/s"."""
-    last = 0
-    for one, other in itertools.pairwise(measures(plain)):
-        start, ahead, last = clause_start(plain, one.start), last, one.end
-        units = [each.unit for each in (one, other) if each.unit is not None]
-        if len({unit.kind for unit in units}) != 1:
-            continue
-        aside = _BEFORE.search(plain, one.end, other.start)
-        if aside is not None and len(units) > 1:  # "1 Mbit/s (before: 2 Mbit/s)"
-            yield aside.start(), other.end + (plain[other.end : other.end + 1] in ")\uff09"), ""
-        verb = _CHANGED.search(plain, start, clause_end(plain, other.end))
-        if verb is None:
-            continue
-        old, new = (units[0].value(each.number.value or Decimal(0)) if each.unit is None else each.value
-                    for each in (one, other))  # fmt: skip
-        fits = {"up": old < new, "down": old > new}.get(verb.lastgroup or "", True)
-        was, led = _WAS.search(plain, start, one.start), _LED.fullmatch(plain, one.end, other.start)
-        turned = _WAS.fullmatch(plain, one.end, other.start) and _LED_AHEAD.search(plain, start, one.start)
-        ranged = was is not None and _LEADS_ON.search(plain, max(ahead, verb.end()), was.start())
-        if was and led and fits and not (ranged or _KEEPS.search(plain, start, verb.start())):
-            yield from _from(plain, was, one, led, other, alone=ahead <= start)
-        elif turned and len(units) > 1:
-            yield one.end, other.end, ""
+    """What a figure is changed from: "raise the floor from 1 to 2 Mbit/s".
 
-
-def _from(
-    plain: str, was: re.Match[str], one: Measure, led: re.Match[str], other: Measure, *, alone: bool
-) -> Iterator[tuple[int, int, str]]:
-    """What stands behind a word for "from", and is ``led`` on to another figure.
-
-    Behind one that is a word for "of", too, the first number of a clause may be a user: "die Rate von 3 auf 2 Mbit/s".
+    Behind a word for "of", too, the first number of a clause may be a user: "die Rate von 3 auf 2 Mbit/s".
     """
-    rate = one.unit is None and other.unit is not None and other.unit.kind == "rate"
-    if was["of"] and alone and rate and (one.number.value or 0) < MOST_USERS:
-        return
+    for one, other, unit, before in _alike(plain):
+        start = clause_start(plain, one.start)
+        was, led = _WAS.search(plain, start, one.start), _LED.fullmatch(plain, one.end, other.start)
+        verb = _CHANGED.search(plain, start, clause_end(plain, other.end))
+        if was is None or led is None or verb is None:
+            continue
+        old, new = (replace(each, unit=unit).value for each in (one, other))
+        fits = {"up": old < new, "down": old > new}.get(verb.lastgroup or "", True)
+        user = before <= start and one.unit is None and unit.kind == "rate" and (one.number.value or 0) < MOST_USERS
+        ranged = _LEADS_ON.search(plain, max(before, verb.end()), was.start())
+        if fits and not ranged and not (was["of"] and (user or other.unit is None)):
+            yield from _moved(plain, was.start(), led[0], one, other)
+
+
+def _moved(plain: str, start: int, kept: str, one: Measure, other: Measure) -> Iterator[tuple[int, int, str]]:
+    """The second figure in the place of the first, behind words that are kept; one without a unit gets it."""
     if other.unit is not None:
-        yield was.start(), led.start(), ""
-    elif not was["of"] and _ENDED.match(plain, other.end):
-        yield was.start(), other.end, plain[led.start() : other.end] + plain[one.number.end : one.end]
-
-
-def _counted(plain: str) -> list[Number]:
-    """The numbers of a text, and the users whom an article names: "sans l'utilisateur un"."""
-    found = list(numbers(plain))
-    for each in named(plain):
-        start = each.end - len(plain[each.start : each.end].split()[-1])
-        by_word = len(each.users) == 1 and str(whole(plain[start : each.end])) == each.users[0]
-        if by_word and not overlaps((start, each.end), ((number.start, number.end) for number in found)):
-            found.append(Number(value=Decimal(each.users[0]), start=start, end=each.end, form="foreign"))
-    return sorted(found, key=lambda number: number.start)
+        yield start, other.end, kept + plain[other.start : other.end]
+    elif _ENDED.match(plain, other.end):
+        yield start, other.end, kept + plain[other.start : other.end] + plain[one.number.end : one.end]
 
 
 def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
@@ -309,7 +256,7 @@ def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
     is taken back, nobody knows: "users 1 and 2, no, 3".
     """
     times = [*factors(plain)]
-    for wrong, right in (*itertools.pairwise(_counted(plain)), *itertools.pairwise(times)):
+    for wrong, right in (*itertools.pairwise(numbers(plain)), *itertools.pairwise(times)):
         its, other = (unit_at(plain, each.end) if each.form != "times" else None for each in (wrong, right))
         said = _RETURN.fullmatch(plain, its.end if its else wrong.end, right.start)
         listed = (other is None and _LIST_AHEAD.search(plain, 0, wrong.start)) or _LIST_BEHIND.match(plain, right.end)
@@ -339,5 +286,5 @@ def _taken_back(plain: str) -> Iterator[tuple[int, int, str]]:
         elif its and other:  # else two figures of one thing are found to be so by whoever reads them
             if its.kind == other.kind and ahead.endswith(head) and not (tail or _GOES_ELSEWHERE.match(behind)):
                 yield wrong.start, right.start, ""
-        elif (ahead.endswith(head) or (user and _ANOTHER_USER.fullmatch(head))) and behind.lstrip().startswith(tail):
+        elif ahead.endswith(head) and behind.lstrip().startswith(tail):
             yield wrong.start, right.start, ""  # "without 3, uh, without 4", "2, no, 3 Mbit/s"

@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from wirelessagent.language.allotments import Allotments, Target
-from wirelessagent.language.as_meant import CHANGES, LEADS, turns
+from wirelessagent.language.as_meant import CHANGES, LEADS, taking_back
 from wirelessagent.language.comparators import WITH, nouns_of
 from wirelessagent.language.intent import RATES
 from wirelessagent.language.judged import Judged
@@ -82,7 +82,7 @@ def read_constraints(
 
     ``names`` are the channel's users, ``max_power_w`` what shares of the power refer to.
     """
-    reading = Reading(text=text, plain=plain, quantities=quantities, turns=turns(plain))
+    reading = Reading(text=text, plain=plain, quantities=quantities, turns=list(taking_back(plain)))
     take_blocks(reading)
     take_multiples(reading)
     reader = _Reader(reading, names, max_power_w)

@@ -13,7 +13,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from wirelessagent.language.intent import CONSTRAINTS
-from wirelessagent.language.text import USER_NOUN, Span, clause_start, is_within
+from wirelessagent.language.text import USER_NOUN, Span, is_within
 from wirelessagent.language.vocabulary import languages_of
 from wirelessagent.language.word_tables import deferred, either, table, words_of
 
@@ -69,21 +69,6 @@ def classes_in(plain: str) -> tuple[tuple[str, Span], ...]:
     return tuple(sorted(found, key=lambda each: (each[1][0], -each[1][1])))
 
 
-def is_ordered(plain: str) -> bool:
-    """Whether a clause begins with a word of order, perhaps behind words that lead up to it.
-
-    >>> is_ordered("he is only testing, so leave user 3 out"), is_ordered("user 3 is left out")
-    (True, False)
-    """
-    for language in languages_of(plain):
-        classes = table_of(language)
-        for start, _ in places(classes["imperative"]["words"], plain):
-            first = clause_start(plain, start)
-            if not any(map(str.isalnum, without(classes["lead"]["words"], plain[first:start]))):
-                return True
-    return False
-
-
 def is_supposed(plain: str) -> bool:
     """Whether a word of a condition stands anywhere.
 
@@ -125,11 +110,9 @@ def _any(name: str) -> str:
 
 _GAP = rf"\s+(?:(?:{_any('between')})\s+)?"
 """What may stand between words of an expression: "he'd also like"."""
-_ASKS = deferred(rf"(?i)\s*(?:{_any('surely_asks')})")
-_ASKS_ELSEWHERE = deferred(rf"(?i)\s*[¿]?(?:(?:und|et|y) )?(?:{_any('asks')})")
+_ASKS = deferred(rf"(?i)\s*[¿]?(?:(?:und|et|y) )?(?:{_any('asks')})")
 _IMPERATIVE = deferred(rf"(?i)^\s*(?:\w+,? )?have\b|{_any('begs')}")
 _KEEPING = deferred(rf"(?i)^\s*(?:{either('figures', 'kept', 'leads')})|{either('figures', 'kept', 'limits')}")
-_ONLY_ASKING = deferred(f"(?i){_any('only_asks')}")
 _ANSWERS = {topic: deferred(rf"(?i)\s*(?:{_any(topic)})\s*[.!。\uff01~]*\s*") for topic in ("confirm", "reject")}
 _COMPARES = deferred(
     rf"(?i)\s*(?:please\s+|请)?(?:{'|'.join(words_of('talk_forms', 'sentences', 'compares'))})(?![A-Za-z])"
@@ -158,12 +141,6 @@ def without_a_tag(text: str) -> str:
     return plain[: tag.start()] if tag is not None else text
 
 
-def is_asked(plain: str) -> bool:
-    """Whether a sentence is certainly a question: it ends like one, or says that it only asks."""
-    ends = plain.rstrip().endswith(("?", "\uff1f"))
-    return _ONLY_ASKING.search(plain) is not None or (ends and begins_like_a_question(plain))
-
-
 def begins_like_a_question(plain: str) -> bool:
     """Whether a sentence begins with who, what, how much or an auxiliary verb."""
     return _ASKS.match(plain) is not None
@@ -175,8 +152,7 @@ def asks_without_a_mark(plain: str) -> bool:
     >>> asks_without_a_mark("what's the total rate"), asks_without_a_mark("have everyone at 1 Mbit/s")
     (True, False)
     """
-    asks = begins_like_a_question(plain) or _ASKS_ELSEWHERE.match(plain) is not None
-    return asks and _IMPERATIVE.search(plain) is None
+    return begins_like_a_question(plain) and _IMPERATIVE.search(plain) is None
 
 
 def keeps_the_limits(plain: str) -> bool:

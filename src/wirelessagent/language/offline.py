@@ -18,7 +18,7 @@ from typing import cast
 from wirelessagent.language import moods
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Intent, IntentKind
-from wirelessagent.language.moods import dropped_in, is_ordered, is_supposed
+from wirelessagent.language.moods import dropped_in
 from wirelessagent.language.numerals import MOST_FIGURES, too_many_figures
 from wirelessagent.language.quantities import amount_of_another_time
 from wirelessagent.language.recogniser import Context, Recogniser
@@ -39,7 +39,7 @@ _OTHER_KINDS = ("question", "command", "clarify", "out_of_scope")
 _NAMED, _CLEAR = 0.02, 0.6
 """How likely an aim is, at least, that a question speaks of, and its share among all that it may speak of."""
 
-_WHAT_IF, _LIMITS = "question.what_if", "clarify.limits"
+_LIMITS = "clarify.limits"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,7 +52,6 @@ class Judgement:
         objective: the likeliest objective, whatever the kind; its share is ``likeliest``.
         limits: how likely the sentence only sets limits and names no objective.
         certainty: 0 to 1, of what was decided.
-        objective_clear: whether the operator named an objective by its own phrase.
         spoken_of: the objective that a question speaks of; None where it speaks of limits or of nothing.
     """
 
@@ -62,7 +61,6 @@ class Judgement:
     likeliest: float
     limits: float
     certainty: float = 1.0
-    objective_clear: bool = False
     spoken_of: str | None = None
 
     @property
@@ -82,9 +80,8 @@ def judge(sentence: Sentence) -> Judgement:
     own_phrase = goal.verdict == "clear" and (goal.objective not in BUILT_IN or _is_all_said(sentence))
     if own_phrase and kinds["question"][0] + kinds["command"][0] < _OWN_PHRASE_ASKED:
         return Judgement(
-            kind="allocate", objective=goal.objective, likeliest=1.0, limits=0.0, certainty=goal.confidence,
-            objective_clear=True,
-        )  # fmt: skip
+            kind="allocate", objective=goal.objective, likeliest=1.0, limits=0.0, certainty=goal.confidence
+        )
     left = (unit for unit in sentence.wishing(sentence.units) if unit.word != MASK)
     if sentence.reading.values and next(left, None) is None:  # no word is left for an aim
         return Judgement(kind="clarify", objective=objective, likeliest=0.0, limits=1.0)
@@ -95,22 +92,14 @@ def judge(sentence: Sentence) -> Judgement:
         share = labels[objective]
     acts = kind == "allocate"
     topic = "" if acts else kinds[kind][1]
-    if topic == "what_if" and sentence.reading.steps and labels["question.step"] > labels[_WHAT_IF] / 2:
-        topic = "step"
-    if topic == "step" and _is_of_no_step(sentence):
-        topic = "what_if"
+    if topic == "step" and "rate" not in sentence.concepts and {q.kind for q in sentence.quantities} == {"ratio"}:
+        topic = "what_if"  # "what would 10 % less power cost?": no step of power or rate is named
     agreed = goal.confidence if goal.verdict == "clear" and goal.objective == objective else 0.0
     sure = max(agreed, share) if acts else kinds[kind][0]
     return Judgement(
         kind=kind, topic=topic, objective=objective, likeliest=share, limits=limits,
         certainty=round(min(1.0, sure), 4), spoken_of=spoken_of,
     )  # fmt: skip
-
-
-def _is_of_no_step(sentence: Sentence) -> bool:
-    """Whether no step of power or rate is named: "what would 10 % less power cost?", "what would less delay bring?"."""
-    share_alone = "rate" not in sentence.concepts and {q.kind for q in sentence.quantities} == {"ratio"}
-    return share_alone or "unsupported" in sentence.concepts
 
 
 def _spoken_of(goal: Goal, labels: Mapping[str, float]) -> str | None:
@@ -164,8 +153,6 @@ _OF_A_RESULT = ("other", "users", "step", "prices", "certificate")
 _FAIR_OBJECTIVES = ("proportional_fairness", "max_min_rate")
 _UNFAIR_OBJECTIVES = ("max_rate", "min_power", "max_energy_efficiency")
 _FAIR_WORDS = {"fair", "same", "fairly"}
-_ONLY_ORDERED = {"users", "weights", "subcarrier_max_power_w", "resource_block_group_size"}
-"""What hardly anybody speaks of but to order it."""
 _ASKED = deferred(r"[?\uff1f]\s*$")
 _NOT = f"{either('moods', 'negation', 'clause')}|{either('figures', 'bounds', 'forbids')}"
 _STARVES = either("figures", "starving", "goes_without")
@@ -230,15 +217,11 @@ class _Understanding:
         """A change of the current request that names no wish of its own: "now with 10 W", "leave user 3 out"."""
         context, reading, judged = self._context, self._reading, self._judged
         changes = bool(reading.values or self._dropped or reading.back)
-        if context.objective is None or not changes or judged.objective_clear:
+        if context.objective is None or not changes:
             return None
         asked = _ASKED.search(moods.without_a_tag(self._text)) is not None
-        commands = judged.kind == "command" and judged.topic not in (*CHANGING, "reject")
-        if judged.kind in ("question", "out_of_scope") or commands:
-            ordered = reading.values.keys() & _ONLY_ORDERED or is_ordered(self._sentence.plain) or self._is_plain()
-            if reading.doubts or asked or not ordered:
-                return None  # "exclude user 7, he is only testing" is an order, whatever it is like
-        elif asked:
+        no_request = judged.kind in ("question", "command", "out_of_scope")
+        if asked or (no_request and judged.topic not in (*CHANGING, "reject")):
             return None
         other = self._goal.verdict == "clear" and self._goal.objective != context.objective
         wished = judged.likeliest > judged.limits
@@ -270,11 +253,6 @@ class _Understanding:
         """Whether an aim was meant beside what was read."""
         goal, others = self._voice.label(objective), self._voice.choices(without=objective)
         return self._answer.ask("weak", 0.6, self._reading.values, objective, goal=goal, choices=others)
-
-    def _is_plain(self) -> bool:
-        """Whether what looks like a supposition has no word of one, and does not ask: "never over 14 W, clear?"."""
-        plain = self._sentence.plain
-        return self._judged.topic == "what_if" and not is_supposed(plain) and not moods.asks_without_a_mark(plain)
 
     def _not_a_request(self) -> Intent | None:
         """Commands, questions, and what has nothing to do with a cell."""
@@ -321,7 +299,7 @@ class _Understanding:
 
     def _request(self) -> Intent:
         goal, judged, default = self._goal, self._judged, self._default()
-        if default is not None and (judged.objective == "max_rate" or not judged.acts):
+        if default is not None:
             return default
         likely = judged.acts or judged.topic == "rivals"  # "the most for all in all, but nobody goes without"
         wished = judged.objective if likely else goal.objective if goal.verdict == "clear" else ""
@@ -351,8 +329,7 @@ class _Understanding:
         goal, concepts = self._goal, self._sentence.concepts
         pending: Mapping[str, Constraint] = {} if self._sentence.chances.is_told else self._reading.values
         offered = [name for name in goal.options if name in self._voice.labels or goal.verdict == "opposite"]
-        fairly = goal.objective == "proportional_fairness" and goal.verdict == "clear"  # "make it fair"
-        if (concepts & _FAIR_WORDS or fairly) and len(self._fair) > 1 and goal.verdict != "contradiction":
+        if concepts & _FAIR_WORDS and len(self._fair) > 1 and goal.verdict != "contradiction":
             return self._answer.ask("fairness", 0.8, pending, both=self._voice.both(self._fair, "or"))
         if goal.verdict == "contradiction" and len(offered) > 1:
             key = "contradiction" if set(offered) == {"max_rate", "min_power"} else "rivals"
@@ -376,7 +353,7 @@ class _Understanding:
         holds = context.objective is not None
         whole = bool(words and reading.values)  # a request of its own answers no earlier question
         values, dropped = self._changes(is_answer=context.awaits == "clarification" and not (whole and holds))
-        changed = self._dropped or reading.back or not reading.values or moods.keeps_the_limits(self._text)
+        changed = self._dropped or not reading.values or moods.keeps_the_limits(self._text)
         amends = holds and bool(changed)
         reply = self._voice.restated(objective, values, reading.not_used)
         request = self._answer.allocate(objective, values, evidence, reply, confidence)

@@ -11,17 +11,14 @@ from wirelessagent.language import goals
 from wirelessagent.language.as_meant import as_meant, hesitating, taking_back
 from wirelessagent.language.constraints import read_constraints
 from wirelessagent.language.goals import Goal
-from wirelessagent.language.intent import LISTS_OF_USERS
 from wirelessagent.language.mentions import mentions
-from wirelessagent.language.moods import classes_in, is_ordered, lifted_in
+from wirelessagent.language.moods import classes_in, lifted_in
 from wirelessagent.language.numerals import numbers
 from wirelessagent.language.order_model import Frame, frame_of, shipped_order_model
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.sentence_model import START, Chances, Word, shipped_sentences
 from wirelessagent.language.stated import Reading
 from wirelessagent.language.text import (
-    AND,
-    AND_ALONE,
     USER_NOUN,
     WORD_OR_SIGN,
     Span,
@@ -68,7 +65,6 @@ _FEWEST_WORDS = 3
 _SAME_BUT = deferred(  # and neither "the same but not user 3" nor "keep all but user 2"
     rf"(?i)\s*(?:{either('figures', 'kept', 'same_but')})\s*(?=\w)(?!(?:not|for|pas|no|nicht|{USER_NOUN})\b)"
 )
-_AND_LAST = deferred(rf"(?i)\b(?:{AND})\s*$")
 
 
 Placed = TypeVar("Placed", Found, Unit)
@@ -108,9 +104,8 @@ class Sentence:
     def _is_known(self, unit: Unit) -> bool:
         if len(unit.word) == 1 and not is_chinese(unit.word):
             return False
-        measure, word = unit_at(self.plain, unit.start), unaccented(unit.word)
-        measures = measure is not None and measure.end >= unit.end
-        return not measures and (is_listed(word) or shipped_sentences().knows(word))
+        word = unaccented(unit.word)
+        return unit_at(self.plain, unit.start) is None and (is_listed(word) or shipped_sentences().knows(word))
 
     @functools.cached_property
     def _marked(self) -> list[tuple[int, int, str]]:
@@ -181,53 +176,38 @@ class Sentence:
                 yield turn
 
     def without_aims_taken_back(self) -> Sentence:
-        """An order without the aims in whose place it names others: "least power, no, wait, max total rate".
-
-        An aim reaches from the figure, the user, the clause or the "and" ahead of it to the next.
-        """
-        back, gone = list(taking_back(self.plain)), list[Span]()
-        if not back or not self.chances.is_order:
-            return self
-        marked = sorted([*((start, end) for start, end, _ in self._marked), *self.reading.masked, *back])
-        for start, end in back:
-            next_ = min([clause_end(self.plain, end), *(begin for begin, _ in marked if begin >= end)])
-            meant = self.plain[end:next_]
-            denied = any(name.partition(":")[0] in ("negation", "refusal", "contrast") for name, _ in classes_in(meant))
-            able = not denied and AND_ALONE.match(meant.strip()) is None and self._is_aim(_AND_LAST.sub("", meant))
-            ends = [start, *(begin for begin, _ in reversed(marked) if begin < start)] if able else []
-            for last in ends:
-                ahead = max([clause_start(self.plain, last), *(to for _, to in marked if to <= last)])
-                ahead = max([ahead, *(match.end() for match in AND_ALONE.finditer(self.plain, ahead, last))])
-                if self._is_aim(self.plain[ahead:last]):
-                    gone += [(ahead, last), (start, end)]
-                    break
-        return self._without(gone) if gone else self
+        """An order without an aim in whose place it names another: "least power, no, wait, max total rate"."""
+        for start, end in taking_back(self.plain) if self.chances.is_order else ():
+            ahead, behind = clause_start(self.plain, start), clause_end(self.plain, end)
+            if self._part((ahead, start)).is_aim and self._part((end, behind)).is_aim:
+                return self._without([(ahead, end)])
+        return self
 
     def without_what_it_tells(self) -> Sentence:
         """An order without the sentences ahead that only tell or ask: "Last night user 3 was slow. Max rate."
 
         It stays whole where the rest is no order, or means something else by itself, as "… Give him 2 Mbit/s"; and
-        where it names no aim of its own, or not all limits that are told: "We are granted 12 W. Max rate."
+        where it names no aim of its own, or not all figures that are told: "We are granted 12 W. Max rate."
         """
         spans = sentences(self.text)
         if len(spans) < 2 or self.chances.order < _HARDLY:
             return self
         told = {span: part for span in spans for part in [self._part(span)] if part.only_tells}
         after = told.get(spans[-1])  # "Max rate. Disregard what I said.", but "… Yesterday it crawled."
-        if not told or len(told) == len(spans) or (after is not None and not after.tells_of_the_past):
+        if not told or (after is not None and not any(name.startswith("past:") for name, _ in classes_in(after.plain))):
             return self
-        rest, whole = self._without([*told]), self.reading
+        rest = self._without([*told])
         figures = {each.kind for part in told.values() for each in part.quantities}
-        limits = {name for part in told.values() for name in part.reading.values if name not in LISTS_OF_USERS}
-        aims = any(part.goal.verdict != "none" for part in told.values())
-        stated = figures <= {each.kind for each in rest.quantities} and limits <= rest.reading.values.keys()
-        bare = [number.start for number in numbers(self.plain) if number.form == "digits"]
+        stated = figures <= {each.kind for each in rest.quantities}
+        bare = [number.start for number in numbers(self.plain)]
         bare = [place for place in bare if not any(start <= place < end for start, end, _ in self._marked)]
         counted = any(start <= place < end for start, end in told for place in bare)  # "Die 1 ist weg. Lass sie aus."
-        others = not {*whole.named} <= {*rest.reading.named}  # of whom more is told, or who are meant by a pronoun
+        others = not {*self.reading.named} <= {
+            *rest.reading.named
+        }  # of whom more is told, or by a pronoun
+        aims = any(part.goal.verdict != "none" for part in told.values())
         refers = others or (counted and not rest.reading.named) or (aims and rest.goal.verdict == "none")
-        same = all(mark in whole.marks for mark in rest.reading.marks) and (whole.doubts or not rest.reading.doubts)
-        if refers or not (stated and same and rest.chances.is_order):
+        if refers or not (stated and rest.chances.is_order):
             return self
         rest.reading.not_used += [part.text.strip() for part in told.values() if part.quantities]
         return rest
@@ -237,26 +217,21 @@ class Sentence:
 
     @property
     def only_tells(self) -> bool:
-        """Whether it orders nothing by itself, and has words enough to say so: "User 7? Not served." has not."""
+        """Whether it tells of something by itself, and has words enough to say so: "User 7? Not served." has not."""
         wordy = sum(word.said.isalnum() for word in self.words) >= _FEWEST_WORDS
         least = _TELLS_FIGURES if self.quantities else _TELLS
-        return wordy and self.chances.order < least and (self.chances.is_told or self.chances.asks)
-
-    @property
-    def tells_of_the_past(self) -> bool:
-        """Whether it has words of a time that is over, and none of an order or a condition."""
-        names = {name.partition(":")[0] for name, _ in classes_in(self.plain)}
-        return "past" in names and not (names & {"condition", "refusal"} or is_ordered(self.plain))
+        return wordy and self.chances.order < least and self.chances.is_told
 
     def _without(self, gone: Sequence[Span]) -> Sentence:
         return Sentence(
             self.text, self._own, names=self._names, max_power_w=self._max_power_w, gone=(*self._gone, *gone)
         )
 
-    def _is_aim(self, words: str) -> bool:
-        """Whether some words of the sentence, by themselves, are likely to order an aim."""
-        said = Sentence(words, self._own).chances if words.strip() else None
-        return said is not None and said.is_order and max(said.kinds[name] for name in BUILT_IN) >= goals.ENOUGH
+    @property
+    def is_aim(self) -> bool:
+        """Whether it is likely to order an aim, and nothing beside."""
+        likely = max(self.chances.kinds[name] for name in BUILT_IN)
+        return not self._marked and self.chances.is_order and likely >= goals.ENOUGH
 
     @functools.cached_property
     def frame(self) -> Frame:

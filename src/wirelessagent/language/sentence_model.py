@@ -103,11 +103,6 @@ class Chances:
         return self.likeliest == TOLD
 
     @property
-    def asks(self) -> bool:
-        """Whether it is likeliest to ask something."""
-        return self.likeliest.startswith("question")
-
-    @property
     def is_order(self) -> bool:
         """Whether it is likely enough to order something, and does not only tell of it."""
         return self.orders(LIKELY)

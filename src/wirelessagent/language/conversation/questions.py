@@ -185,7 +185,7 @@ def asked_instead(line: Line, understood: Intent) -> Intent | None:
     """
     if line.context.objective is None or understood.kind != "clarify":
         return None
-    asks = moods.is_asked(line.shape) or moods.asks_without_a_mark(line.shape) or has("asking", line.shape)
+    asks = moods.asks_without_a_mark(line.shape) or has("asking", line.shape)
     if asks and understood.asks in _OPEN and not understood.pending:
         kinds = line.sentence.chances.kinds
         questions = {label: share for label, share in kinds.items() if label.startswith("question")}
