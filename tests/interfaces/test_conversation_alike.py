@@ -121,9 +121,12 @@ HELD = Context(
 
 
 def test_no_figure_of_a_line_goes_unused_unasked() -> None:
-    """One of two powers would be set, and the other one lost."""
+    """One of two powers would be set, and the other one lost; part by part all is meant."""
     said = "Proportional fair mit 36 dBm, Blöcke zu vier Unterträgern, pro Unterträger maximal 200 mW."
-    assert understood(said, HELD, OfflineRecogniser()).kind == "clarify"
+    found = understood(said, HELD, OfflineRecogniser())
+    assert found.objective == "proportional_fairness"
+    assert found.constraints["max_power_w"] == pytest.approx(3.981, rel=1e-3)
+    assert found.constraints["subcarrier_max_power_w"] == 0.2
 
 
 @pytest.mark.parametrize(

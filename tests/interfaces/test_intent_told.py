@@ -77,13 +77,23 @@ def test_a_sentence_that_the_next_refers_to_stays() -> None:
 
 
 @pytest.mark.parametrize(
+    ("text", "user"),
+    [
+        ("Die 1 ist seit heute früh in Wartung, sagt der Kollege. Lass sie weg und verteil proportional fair.", "1"),
+        ("Dicen que el 2 ya no vive aquí. Exclúyelo y reparte con equidad proporcional.", "2"),
+    ],
+)
+def test_a_pronoun_is_whoever_was_told_of_by_number(text: str, user: str) -> None:
+    intent = understood(text, CELL, OfflineRecogniser())
+    assert (intent.objective, intent.constraints) == ("proportional_fairness", {"leave_out": (user,)})
+
+
+@pytest.mark.parametrize(
     "text",
     [
         "Last night user 4 had 1 Mbit/s and it should stay so. Max rate, user 3 at least 2 Mbit/s.",
         "Pon la máxima eficiencia energética. O mejor no, retiro lo dicho.",
         "The boss ordered the highest total rate. Power at most 12 W.",
-        "Die 1 ist seit heute früh in Wartung, sagt der Kollege. Lass sie weg und verteil proportional fair.",
-        "Dicen que el 2 ya no vive aquí. Exclúyelo y reparte con equidad proporcional.",
     ],
 )
 def test_what_is_taken_back_or_referred_to_is_asked_about(text: str) -> None:

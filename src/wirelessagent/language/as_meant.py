@@ -97,6 +97,7 @@ _RETURN = deferred(  # what stands between a figure and the one that takes its p
 )
 _TAKES_BACK = deferred(rf"(?i){_BACK}")
 _HESITATES = deferred(rf"(?i)(?<![A-Za-zÀ-ÿ'])(?:{_FILLED})(?![A-Za-zÀ-ÿ'])\s*,?(?=\s*(?P<item>{_NUMBER}))")
+_ITEM = deferred(rf"(?i)\s*{_NUMBER}")
 _AND_AHEAD = deferred(rf"(?i)(?:\b(?:{AND})|[和与跟及])\s*$")
 _INSTEAD = deferred(
     rf"(?i)(?:\s*{_TOKEN}){{0,3}}?\s*[,\uff0c]?\s*(?P<instead>(?:{either('figures', 'one', 'instead_of')})\s*)"
@@ -160,8 +161,10 @@ def without_corrected(text: str) -> str:
     return text
 
 
-def taking_back(plain: str) -> Iterator[Span]:
-    """Where words stand that take back what is no figure: "no wait", "不对"; a lone "no" denies, "uh" fills a pause.
+def taking_back(plain: str, *, figures: bool = False) -> Iterator[Span]:
+    """Where words stand that take back what was said: "no wait", "不对"; a lone "no" denies, "uh" fills a pause.
+
+    Between ``figures`` a "no" without a pause takes back, too: "3 watts no half a watt".
 
     >>> list(taking_back("least power, no, wait, max rate, no user 3, uh"))
     [(11, 23)]
@@ -172,7 +175,8 @@ def taking_back(plain: str) -> Iterator[Span]:
         if more.casefold().endswith(_DENIES) or (re.fullmatch(_WAITS, said) and not more):
             continue  # "sorry, no min power", "max rate, wait, least power matters, too"
         parted = match["pause"].strip() and match["more"].strip()  # "…, no, …"
-        if filled or more or parted or said not in _DENIES:
+        between = figures and not match["pause"].strip() and _ITEM.match(plain, match.end())
+        if filled or more or parted or between or said not in _DENIES:
             yield match.span()
 
 

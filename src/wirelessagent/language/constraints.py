@@ -82,7 +82,7 @@ def read_constraints(
 
     ``names`` are the channel's users, ``max_power_w`` what shares of the power refer to.
     """
-    reading = Reading(text=text, plain=plain, quantities=quantities, turns=list(taking_back(plain)))
+    reading = Reading(text=text, plain=plain, quantities=quantities, turns=list(taking_back(plain, figures=True)))
     take_blocks(reading)
     take_multiples(reading)
     reader = _Reader(reading, names, max_power_w)

@@ -247,7 +247,7 @@ def _pair(found: Sequence[Found]) -> dict[int, Found]:
 def _is_blocked(found: Sequence[Found], direction: Found, item: Found) -> bool:
     """Whether another object stands between the two, unless "and" or "or" joins it to this one."""
     low, high = min(direction.last, item.last), max(direction.first, item.first)
-    between = [other for other in found if low <= other.first < high and other is not item and other is not direction]
+    between = [other for other in found if low <= other.first < high]
     if direction.concept == "up" and direction.first >= item.last and _of(between, "question"):
         return True  # "the speed is good" says how it is
     return bool(_of(between, *_MEANT, "direct")) and not _of(between, "join")

@@ -190,10 +190,19 @@ def mentions(plain: str, names: Sequence[str] = (), taken: Sequence[tuple[int, i
     [('named', ('3', '5')), ('others', ())]
     """
     found: list[Mention] = []
-    for mention in [*_own_names(plain, names), *_by_place(plain, len(names)), *_spoken_of(plain)]:
+    spoken_of = _spoken_of(plain)
+    for mention in [*_own_names(plain, names), *_placed(plain, len(names), spoken_of), *spoken_of]:
         if not overlaps((mention.start, mention.end), [*taken, *((other.start, other.end) for other in found)]):
             found.append(mention)
     return merged(plain, sorted(found, key=lambda mention: mention.start))
+
+
+def _placed(plain: str, count: int, spoken_of: Sequence[Mention]) -> Iterator[Mention]:
+    """Users by their place, with the list of the same behind: "the odd-numbered users 1, 3, 5 and 7"."""
+    for each in _by_place(plain, count):
+        lists = (other for other in spoken_of if {*other.users} == {*each.users} and each.start < other.end)
+        near = (other for other in lists if other.start <= each.end or not plain[each.end : other.start].strip())
+        yield replace(each, end=max((other.end for other in near), default=each.end))
 
 
 def _own_names(plain: str, names: Sequence[str]) -> Iterator[Mention]:

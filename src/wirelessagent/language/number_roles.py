@@ -54,6 +54,7 @@ BORROWING: Mapping[str, QuantityKind] = {
 }  # fmt: skip
 _SCALES = {"k": 10**3, "K": 10**3, "M": 10**6, "G": 10**9}
 _DECLARING = frozenset(words_of("figures", "one", "declares"))
+_DENIED = deferred(f"(?i){either('moods', 'negation', 'clause')}")
 _FAR = 200  # no two rates of one sentence are farther apart: another unit is meant
 _ALONE, _BEHIND = (either("figures", "one", name) for name in ("alone", "behind_alone"))
 _ONE = Phrases(  # "the others only one", "one two and four", against "one user"
@@ -142,14 +143,17 @@ def _declared(plain: str, measured: Sequence[Measure]) -> Iterator[Measure]:
     """
     taken = [(each.start, each.end) for each in measured]
     for match in WORD_OR_SIGN.finditer(plain):
-        start, unit = match.start(), unit_at(plain, match.start())
-        if unit is None or overlaps(match.span(), taken):
+        unit = None if overlaps(match.span(), taken) else unit_at(plain, match.start())
+        if unit is None or unit.kind == "ratio":
             continue
-        taken.append((start, unit.end))
-        ahead = WORD_OR_SIGN.findall(plain[clause_start(plain, start) : start].lower())
-        behind = WORD_OR_SIGN.findall(plain[unit.end : clause_end(plain, unit.end)].lower())
-        said_in = ahead[-1:] in (["in"], ["en"]) and not behind
-        if said_in or {*ahead, *behind} <= _DECLARING:
+        start, taken = match.start(), [*taken, (match.start(), unit.end)]
+        first, last = clause_start(plain, start), clause_end(plain, unit.end)
+        ahead, behind = (
+            WORD_OR_SIGN.findall(plain[slice(*span)].lower()) for span in ((first, start), (unit.end, last))
+        )
+        bracketed = plain[start - 1 : start] == "[" and plain[unit.end : unit.end + 1] == "]"  # "floors [kbps]: …"
+        said_in = ahead[-1:] in (["in"], ["en"]) and not behind and _DENIED.search(plain, first, start) is None
+        if said_in or bracketed or {*ahead, *behind} <= _DECLARING:
             number = Number(value=Decimal(1), start=start, end=start, form="words")
             yield Measure(number=number, unit=unit, start=start, end=unit.end)
 

@@ -19,6 +19,8 @@ from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.sentence_model import START, Chances, Word, shipped_sentences
 from wirelessagent.language.stated import Reading
 from wirelessagent.language.text import (
+    AND,
+    AND_ALONE,
     USER_NOUN,
     WORD_OR_SIGN,
     Span,
@@ -65,6 +67,7 @@ _FEWEST_WORDS = 3
 _SAME_BUT = deferred(  # and neither "the same but not user 3" nor "keep all but user 2"
     rf"(?i)\s*(?:{either('figures', 'kept', 'same_but')})\s*(?=\w)(?!(?:not|for|pas|no|nicht|{USER_NOUN})\b)"
 )
+_AND_LAST = deferred(rf"(?i)\b(?:{AND})\s*$")
 
 
 Placed = TypeVar("Placed", Found, Unit)
@@ -176,15 +179,30 @@ class Sentence:
                 yield turn
 
     def without_aims_taken_back(self) -> Sentence:
-        """An order without an aim in whose place it names another: "least power, no, wait, max total rate"."""
-        for start, end in taking_back(self.plain) if self.chances.is_order else ():
-            ahead, behind = clause_start(self.plain, start), clause_end(self.plain, end)
-            if self._part((ahead, start)).is_aim and self._part((end, behind)).is_aim:
-                return self._without([(ahead, end)])
-        return self
+        """An order without the aims in whose place it names others: "least power, no, wait, max total rate".
+
+        An aim reaches from the figure, the user, the clause or the "and" ahead of it to the next.
+        """
+        back, gone = list(taking_back(self.plain)), list[Span]()
+        if not back or not self.chances.is_order:
+            return self
+        marked = sorted([*((start, end) for start, end, _ in self._marked), *self.reading.masked, *back])
+        for start, end in back:
+            next_ = min([clause_end(self.plain, end), *(begin for begin, _ in marked if begin >= end)])
+            meant = self.plain[end:next_]
+            denied = any(name.partition(":")[0] in ("negation", "refusal", "contrast") for name, _ in classes_in(meant))
+            able = not denied and self._is_aim(_AND_LAST.sub("", meant))
+            ends = [start, *(begin for begin, _ in reversed(marked) if begin < start)] if able else []
+            for last in ends:
+                ahead = max([clause_start(self.plain, last), *(to for _, to in marked if to <= last)])
+                ahead = max([ahead, *(match.end() for match in AND_ALONE.finditer(self.plain, ahead, last))])
+                if self._is_aim(self.plain[ahead:last]):
+                    gone += [(ahead, last), (start, end)]
+                    break
+        return self._without(gone) if gone else self
 
     def without_what_it_tells(self) -> Sentence:
-        """An order without the sentences ahead that only tell or ask: "Last night user 3 was slow. Max rate."
+        """An order without the sentences ahead that only tell: "Last night user 3 was slow. Max rate."
 
         It stays whole where the rest is no order, or means something else by itself, as "… Give him 2 Mbit/s"; and
         where it names no aim of its own, or not all figures that are told: "We are granted 12 W. Max rate."
@@ -202,9 +220,7 @@ class Sentence:
         bare = [number.start for number in numbers(self.plain)]
         bare = [place for place in bare if not any(start <= place < end for start, end, _ in self._marked)]
         counted = any(start <= place < end for start, end in told for place in bare)  # "Die 1 ist weg. Lass sie aus."
-        others = not {*self.reading.named} <= {
-            *rest.reading.named
-        }  # of whom more is told, or by a pronoun
+        others = not {*self.reading.named} <= {*rest.reading.named}  # more are told of, or meant by "him"
         aims = any(part.goal.verdict != "none" for part in told.values())
         refers = others or (counted and not rest.reading.named) or (aims and rest.goal.verdict == "none")
         if refers or not (stated and rest.chances.is_order):
@@ -227,11 +243,10 @@ class Sentence:
             self.text, self._own, names=self._names, max_power_w=self._max_power_w, gone=(*self._gone, *gone)
         )
 
-    @property
-    def is_aim(self) -> bool:
-        """Whether it is likely to order an aim, and nothing beside."""
-        likely = max(self.chances.kinds[name] for name in BUILT_IN)
-        return not self._marked and self.chances.is_order and likely >= goals.ENOUGH
+    def _is_aim(self, words: str) -> bool:
+        """Whether some words of the sentence, by themselves, are likely to order an aim."""
+        said = Sentence(words, self._own).chances if words.strip() else None
+        return said is not None and said.is_order and max(said.kinds[name] for name in BUILT_IN) >= goals.ENOUGH
 
     @functools.cached_property
     def frame(self) -> Frame:

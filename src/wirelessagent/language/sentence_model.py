@@ -146,7 +146,7 @@ def _seen(word: Word, before: str, behind: str, *, bare: bool) -> Iterator[str]:
         yield "@"
     elif bare:
         yield "~"
-    if not bare and len(word.said) > 3 and word.said.isalpha() and not is_chinese(word.said):
+    if not bare and len(word.said) > 3 and word.said.isalpha():
         letters = f"^{word.said[:_LONG_ENOUGH]}$"
         yield from ("c" + letters[at : at + size] for size in (3, 4) for at in range(len(letters) - size + 1))
 

@@ -218,9 +218,7 @@ def clause_end(plain: str, place: int, to: int | None = None) -> int:
     to = len(plain) if to is None else to
     cuts = _cuts(plain)
     after = bisect.bisect_left(cuts, place)
-    if after < len(cuts) and cuts[after] < to:
-        return cuts[after]
-    return to - 1 if to > place and plain[to - 1] == "." else to
+    return cuts[after] if after < len(cuts) and cuts[after] < to else to
 
 
 def clauses(plain: str, whole: Sequence[Span] = ()) -> list[Span]:
