@@ -218,7 +218,9 @@ def clause_end(plain: str, place: int, to: int | None = None) -> int:
     to = len(plain) if to is None else to
     cuts = _cuts(plain)
     after = bisect.bisect_left(cuts, place)
-    return cuts[after] if after < len(cuts) and cuts[after] < to else to
+    if after < len(cuts) and cuts[after] < to:
+        return cuts[after]
+    return to - 1 if to > place and plain[to - 1] == "." else to
 
 
 def clauses(plain: str, whole: Sequence[Span] = ()) -> list[Span]:
