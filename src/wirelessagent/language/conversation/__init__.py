@@ -55,8 +55,12 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
 
 def _meant(line: Line, recogniser: Recogniser) -> tuple[Intent, bool]:
     """What a line means behind a request, as a whole or by its parts, and whether it surely does."""
-    intent, sure = weighed(line, read_by_rules(line.text, line.context, recogniser))
-    parts = None if line.context.objective is None else by_parts(line, intent, lambda part: _meant(part, recogniser))
+
+    def weigh(part: Line) -> tuple[Intent, bool]:
+        return weighed(part, read_by_rules(part.text, part.context, recogniser))
+
+    intent, sure = weigh(line)
+    parts = None if line.context.objective is None else by_parts(line, intent, weigh)
     return (intent, sure) if parts is None else (parts, True)
 
 

@@ -37,12 +37,11 @@ def by_parts(line: Line, whole: Intent, weigh: Weigh) -> Intent | None:
     orders = line.sentence.chances.is_order and not line.is_asked and whole.kind in ("allocate", "clarify")
     if not orders or whole.asks in _AT_ODDS or line.context.awaits == "clarification":
         return None
-    possible = Possible(line.anchored, line.context)
-    acts = next((acts for start, end in _cuts(line) if (acts := _together(line, start, end, weigh))), None)
-    if acts is None:
+    possible, acts = Possible(line.anchored, line.context), _together(line, weigh)
+    if not acts:
         return None
     heard = whole if whole.kind == "allocate" else whole.guess
-    said = acts_of(heard) if heard is not None else ()
+    said = acts_of(heard) if heard is not None and heard.kind == "allocate" else ()
     before, after = possible.effect(said) if said else NOTHING[1], possible.effect(acts)
     more = before < after or (before == after and whole.kind == "clarify")
     return intent_of(line, possible, acts) if more else None
@@ -58,12 +57,16 @@ def _cuts(line: Line) -> Iterator[Span]:
     yield from (cut for cut in cuts if not overlaps(cut, whole))
 
 
-def _together(line: Line, start: int, end: int, weigh: Weigh) -> tuple[Act, ...] | None:
-    """What a line comes to that is cut in two; None where either part is not sure."""
-    first = Line.of(line.text[:start], line.context)
-    one = _sure(first, weigh)
-    more = _sure(Line.of(line.text[end:], _behind(first, one)), weigh) if one else ()
-    return (*one, *more) if more else None
+def _together(line: Line, weigh: Weigh) -> tuple[Act, ...]:
+    """What a line comes to that is cut behind its first part that is sure; nothing where the rest is not."""
+    for start, end in _cuts(line):
+        first = Line.of(line.text[:start], line.context)
+        one = _sure(first, weigh)
+        if one:
+            rest = Line.of(line.text[end:], _behind(first, one))
+            more = _sure(rest, weigh) or _together(rest, weigh)
+            return (*one, *more) if more else ()
+    return ()
 
 
 def _sure(line: Line, weigh: Weigh) -> tuple[Act, ...]:
