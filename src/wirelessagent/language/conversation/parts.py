@@ -1,4 +1,4 @@
-"""What a line means part by part: "kick user 5, 3 needs at least 1.5 Mbit/s now".
+"""What a line means part by part: "circuits draw 3.8 W, and no floor for user 3 any more".
 
 A part is weighed as a line of its own, behind what the parts ahead of it come to. The line means all of them where each
 surely changes something that it names, and where it is hardly clear as a whole, or less as a whole.
