@@ -37,9 +37,10 @@ def by_parts(line: Line, whole: Intent, weigh: Weigh) -> Intent | None:
     orders = line.sentence.chances.is_order and not line.is_asked and whole.kind in ("allocate", "clarify")
     if not orders or whole.asks in _AT_ODDS or line.context.awaits == "clarification":
         return None
-    possible, acts = Possible(line.anchored, line.context), _together(line, weigh)
+    acts = _together(line, weigh)
     if not acts:
         return None
+    possible = Possible(line.anchored, line.context)
     heard = whole if whole.kind == "allocate" else whole.guess
     said = acts_of(heard) if heard is not None and heard.kind == "allocate" else ()
     before, after = possible.effect(said) if said else NOTHING[1], possible.effect(acts)
